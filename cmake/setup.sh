@@ -1,0 +1,41 @@
+# Sourced by demo.sh, test.sh and .ci/run: what they share. Safe to run twice; the second time is quick.
+
+talus_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libboost-program-options-dev
+  nlohmann-json3-dev libfmt-dev catch2 zlib1g-dev libxxhash-dev libbenchmark-dev python3)
+
+# Installs the packages that are missing. Elsewhere than on Debian and its kin it prints what is needed.
+install_missing_packages() {
+  if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
+    cat >&2 <<TEXT
+This is no Debian, so nothing was installed. Please install a C++20 compiler with OpenMP, CMake 3.25, Ninja,
+pkg-config, Python 3, and the headers of Eigen 3.4, Boost 1.74 (DLL, Program_options), nlohmann-json 3.11, fmt 9,
+Catch2 2.13, zlib, xxHash and, for the benchmarks, Google Benchmark. Debian 12 calls them:
+  ${talus_packages[*]}
+Then: cmake --preset release && cmake --build --preset release && ctest --preset release
+TEXT
+    exit 1
+  fi
+  local missing=() package
+  for package in "${talus_packages[@]}"; do
+    [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null) == installed ]] || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+
+  local as_root=()
+  if ((EUID != 0)); then
+    if ! command -v sudo > /dev/null; then
+      printf 'Missing packages, and no sudo. Please run as root:\n  apt-get install %s\n' "${missing[*]}" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+
+# build_preset NAME: configures and builds into build/NAME.
+build_preset() {
+  cmake --preset "$1" > /dev/null
+  cmake --build --preset "$1" --parallel "$(nproc)"
+}

@@ -1,0 +1,55 @@
+// The normal part of the overlap-area law alone. See README.md beside.
+
+#include <talus/library.hpp>
+#include <talus/overlap/distributed_contact.hpp>
+
+namespace {
+
+using namespace talus;
+
+constexpr Parameter interface_parameters[] = {
+    number("normal_stiffness", "Pa/m", required, 0, unbounded, "Pressure per metre of penetration, α_N."),
+    number("normal_damping", "-", required, 0, 10, "Dashpot across the contact, share of critical."),
+};
+
+class Frictionless final : public ContactModel {
+ public:
+  static constexpr bool frictional = false;
+
+  explicit Frictionless(const double* /*values*/) {}
+
+  std::uint32_t doubles_per_contact() const noexcept override { return 0; }
+
+  void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
+    static thread_local overlap::DistributedContact<Frictionless> contact;
+    contact.evaluate(*this, batch, loads);
+  }
+
+  ContactStiffness stiffness(const double* values, double length) const noexcept override {
+    return {values[0] * length, 0, values[1], 0};
+  }
+
+  static overlap::InterfaceParameters interface(const double* values) {
+    return {.normal_stiffness = values[0], .normal_damping = values[1]};
+  }
+};
+
+constexpr Component components[] = {{
+    ComponentKind::contact_model,
+    "frictionless",
+    "The overlap-area law without its tangential part: no friction, no history.",
+    nullptr,
+    0,
+    interface_parameters,
+    std::size(interface_parameters),
+    create_component<ContactModel, Frictionless>,
+    destroy_component<ContactModel>,
+}};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = {.name = "frictionless",
+                                                   .version = "0.1.0",
+                                                   .author = "the talus authors",
+                                                   .components = components,
+                                                   .component_count = std::size(components)};

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::vertex_edge {
+
+/// What the host keeps for each vertex: five doubles.
+struct SpringHistory {
+  double key;      ///< 1 + number of the vertex, 0 for none
+  double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
+  double stored;   ///< J/m, of normal and tangential springs, as counted (with the share)
+  double intact;   ///< 1 while cohesion and tensile strength hold
+  double applied;  ///< N/m, tangential force as counted, without damping
+};
+
+inline constexpr unsigned spring_doubles = 5;
+
+/// Springs and strength of one vertex contact.
+struct SpringParameters {
+  double normal, tangential;  ///< N/m per metre of thickness
+  double friction;            ///< μ
+  double cohesion, tensile;   ///< N/m, strength times tributary length; zero once the bond is broken
+};
+
+struct SpringForce {
+  double normal;      ///< N/m, positive in compression
+  double tangential;  ///< N/m, on the vertex along the edge
+  bool slips, breaks;
+};
+
+/// Mohr–Coulomb with tension cut-off: no more than c l + N tan φ along the edge, no more than σ_t l across
+/// it. `viscous` is what a dashpot adds to the normal force.
+inline SpringForce spring_force(const SpringParameters& spring, double depth, double viscous,
+                                double old_tangential, double slip, bool held) {
+  SpringForce force{spring.normal * depth, old_tangential - spring.tangential * slip, false, false};
+  if (force.normal < -spring.tensile) return {0, 0, false, true};
+  const double frictional = spring.friction * std::max(0.0, force.normal + viscous);
+  const double limit = spring.cohesion + frictional;
+  const bool without_strength = spring.friction == 0 && spring.cohesion == 0;
+  if (held && !without_strength) return force;
+  if (std::abs(force.tangential) > limit) {
+    force.slips = true;
+    force.breaks = spring.cohesion > 0;
+    force.tangential = std::copysign(frictional, force.tangential);
+  }
+  return force;
+}
+
+}  // namespace talus::vertex_edge

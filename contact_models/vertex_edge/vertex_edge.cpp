@@ -1,0 +1,297 @@
+// The contact law of DDA: penalty springs between a vertex and an edge. See README.md beside.
+
+#include "corner_contacts.hpp"
+#include "springs.hpp"
+
+#include <talus/library.hpp>
+
+#include <stdexcept>
+
+namespace {
+
+using namespace talus;
+using namespace talus::vertex_edge;
+
+constexpr Parameter parameters[] = {
+    choice("calibration", "per_area|springs", 0,
+           "Springs from the interface's stiffness per area times the length each vertex carries, or given "
+           "directly."),
+    number("normal_spring", "N/m per m", 0, 0, unbounded,
+           "Normal spring of a vertex, with calibration 'springs'."),
+    number("tangential_spring", "N/m per m", 0, 0, unbounded,
+           "Shear spring of a vertex, with calibration 'springs'."),
+};
+
+constexpr Parameter interface_parameters[] = {
+    number("normal_stiffness", "Pa/m", required, 0, unbounded, "Pressure per metre of penetration."),
+    number("tangential_stiffness", "Pa/m", required, 0, unbounded,
+           "Shear traction per metre of slip in stick."),
+    number("friction_angle", "deg", required, 0, 89.99995, "Friction angle φ, μ = tan φ."),
+    number("normal_damping", "-", required, 0, 10, "Dashpot across the contact, share of critical."),
+    number("tangential_damping", "-", required, 0, 10,
+           "Dashpot along the contact while it sticks, share of critical."),
+    number("cohesion", "Pa", 0, 0, unbounded,
+           "Cohesion of contacts that exist at the start, until they slip or open."),
+    number("tensile_strength", "Pa", 0, 0, unbounded,
+           "Tension such a contact bears before it opens for good."),
+};
+
+struct Interface {
+  double normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping, cohesion,
+      tensile;
+};
+
+class VertexEdge final : public ContactModel {
+ public:
+  explicit VertexEdge(const double* values)
+      : direct_(values[0] == 1), normal_spring_(values[1]), tangential_spring_(values[2]) {
+    if (direct_ && !(normal_spring_ > 0)) {
+      throw std::invalid_argument("calibration 'springs' needs a normal_spring above 0");
+    }
+  }
+
+  std::uint32_t doubles_per_contact() const noexcept override { return spring_doubles; }
+
+  void prepare_interface(double* values) const noexcept override { values[2] = std::tan(values[2]); }
+
+  void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
+    static thread_local Workspace work;
+    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+      evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], work);
+    }
+  }
+
+  ContactStiffness stiffness(const double* values, double length) const noexcept override {
+    const Interface interface = read(values);
+    const double tangential = interface.friction > 0 || interface.cohesion > 0 ? 1 : 0;
+    if (direct_) {
+      return {normal_spring_, tangential * tangential_spring_, interface.normal_damping,
+              interface.tangential_damping};
+    }
+    return {interface.normal_stiffness * length, tangential * interface.tangential_stiffness * length,
+            interface.normal_damping, interface.tangential_damping};
+  }
+
+ private:
+  struct Workspace {
+    std::vector<PiecePairGeometry> pieces;
+    std::vector<CornerContact> found;
+    std::vector<SpringHistory> old;
+    CornerFinder finder;
+  };
+
+  static Interface read(const double* v) { return {v[0], v[1], v[2], v[3], v[4], v[5], v[6]}; }
+
+  void evaluate_pair(const ContactBatch& batch, const ContactLoads& loads, const BodyPair& pair,
+                     PairReport& report, Workspace& work) const {
+    read_history(batch, pair, work.old);
+    find_contacts(batch, pair, work);
+    const overlap::LoadSink sink{loads.fx, loads.fy};
+    for (const SpringHistory& old : work.old) {
+      report.slip_loss += old.stored;  // what the contacts that live on still hold is taken off again below
+    }
+    std::uint32_t count = 0;
+    for (const CornerContact& contact : work.found) {
+      SpringHistory history = born(batch, contact, work);
+      ContactReport seen{};
+      if (!act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report)) continue;
+      if (count < pair.slot_capacity) {
+        write(history, loads.history + (pair.slot_start + count) * spring_doubles);
+        loads.reports[pair.slot_start + count] = seen;
+      }
+      ++count;
+    }
+    report.contact_count = count;
+  }
+
+  static void read_history(const ContactBatch& batch, const BodyPair& pair, std::vector<SpringHistory>& old) {
+    old.clear();
+    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
+      const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
+      old.push_back({h[0], h[1], h[2], h[3], h[4]});
+    }
+  }
+
+  static void write(const SpringHistory& history, double* to) {
+    to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
+    to[4] = history.applied;
+  }
+
+  void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
+    const std::uint32_t entries = pair.piece_pair_end - pair.piece_pair_start;
+    if (work.pieces.size() < entries) work.pieces.resize(entries);
+    work.found.clear();
+    for (std::uint32_t e = 0; e < entries; ++e) {
+      const PiecePair& pieces = batch.piece_pairs[pair.piece_pair_start + e];
+      PiecePairGeometry& geometry = work.pieces[e];
+      geometry.piece[0].read(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
+      geometry.piece[1].read(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
+                             pieces.load_start + geometry.piece[0].size());
+      geometry.first_corner[0] = batch.boundaries.piece_start[pieces.a];
+      geometry.first_corner[1] = batch.boundaries.piece_start[pieces.b];
+      const double touching = 1e-12 * shortest(geometry.piece[0], geometry.piece[1]);
+      const auto bond_reach = [&](std::uint32_t key) {
+        if (batch.bonds_form) return touching;
+        const SpringHistory* old = find_old(work.old, key);
+        return old != nullptr && old->intact == 1 ? reach_of_bonds(batch.interfaces) : 0.0;
+      };
+      work.finder.find(geometry, e, bond_reach, work.found);
+    }
+    drop_repeated(work.found);
+  }
+
+  /// A vertex on the cut between two pieces of a concave body stands on one of them only.
+  static void drop_repeated(std::vector<CornerContact>& found) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto same = [&](const CornerContact& other) { return other.key == found[i].key; };
+      if (std::none_of(found.begin(), found.begin() + kept, same)) found[kept++] = found[i];
+    }
+    found.resize(kept);
+  }
+
+  static double shortest(const Piece& p, const Piece& q) {
+    return std::min(*std::max_element(p.length.begin(), p.length.end()),
+                    *std::max_element(q.length.begin(), q.length.end()));
+  }
+
+  /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces.
+  double reach_of_bonds(const Interfaces& interfaces) const {
+    double reach = 0;
+    const std::uint32_t surfaces = interfaces.surface_count;
+    for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
+      const double* values = interfaces.value + interfaces.row[i] * interfaces.parameter_count;
+      const Interface interface = read(values);
+      if (interface.normal_stiffness > 0)
+        reach = std::max(reach, interface.tensile / interface.normal_stiffness);
+    }
+    return reach;
+  }
+
+  static const SpringHistory* find_old(const std::vector<SpringHistory>& old, std::uint32_t key) {
+    for (const SpringHistory& history : old) {
+      if (history.key == 1.0 + key) return &history;
+    }
+    return nullptr;
+  }
+
+  /// The history of a contact: its own, or that of the corner it meets (the two share one spring), or a new
+  /// one.
+  static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
+    if (const SpringHistory* old = find_old(work.old, contact.key)) return *old;
+    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0};
+    if (contact.share == 1) return history;
+    for (const CornerContact& other : work.found) {
+      if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
+        continue;
+      const Piece& own = work.pieces[contact.entry].piece[contact.vertex_body];
+      const Piece& met = work.pieces[contact.entry].piece[1 - contact.vertex_body];
+      if (contact.side != other.vertex && met.next(contact.side) != other.vertex) continue;
+      if (const SpringHistory* old = find_old(work.old, other.key)) {
+        const double turned = dot(own.tangent[other.side], met.tangent[contact.side]);
+        history.elastic = -std::copysign(old->elastic, old->elastic * turned);
+        history.intact = old->intact;
+      }
+    }
+    return history;
+  }
+
+  /// Applies one contact. False when its bond breaks in tension and nothing is left.
+  bool act(const ContactBatch& batch, const BodyPair& pair, const overlap::LoadSink& sink,
+           const PiecePairGeometry& geometry, const CornerContact& contact, SpringHistory& history,
+           ContactReport& seen, PairReport& report) const {
+    const Piece& own = geometry.piece[contact.vertex_body];
+    const Piece& other = geometry.piece[1 - contact.vertex_body];
+    const Interface interface = interface_of(batch.interfaces, own, other, contact);
+    const SpringParameters spring = springs(interface, contact.tributary, history.intact == 1);
+    const Point normal = other.normal(contact.side), along = other.tangent[contact.side];
+    const Point relative = own.velocity[contact.vertex] - other.velocity_at(contact.side, contact.lever);
+    const double slip = dot(relative, along) * batch.dt;
+
+    const double closing = -dot(relative, normal);
+    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * pair.reduced_mass);
+    const double viscous = std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth));
+
+    const double old_stored = history.stored, old_applied = history.applied;
+    const SpringForce force =
+        spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
+    if (force.breaks) history.intact = 0;
+    if (force.normal <= 0 && history.intact == 0) return false;
+
+    history.elastic = force.tangential;
+    history.applied = contact.share * force.tangential;
+    const double stored_normal = contact.share * spring.normal * contact.depth * contact.depth / 2;
+    const double stored_tangential =
+        spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
+                              : 0;
+    history.stored = stored_tangential;
+    report.stored += stored_normal + stored_tangential;
+    report.slip_loss +=
+        -old_stored - (old_applied + history.applied) * slip / 2 - (stored_tangential - old_stored);
+    report.penetration = std::max(report.penetration, contact.depth);
+
+    report.damping_power += contact.share * viscous * closing * batch.dt;
+    double tangential = force.tangential;
+    if (!force.slips && spring.tangential > 0 && spring.friction + spring.cohesion > 0) {
+      const double shear_dashpot =
+          2 * interface.tangential_damping * std::sqrt(spring.tangential * pair.reduced_mass);
+      const double limit = batch.hold_stick
+                               ? std::numeric_limits<double>::infinity()
+                               : spring.cohesion + spring.friction * std::max(0.0, force.normal + viscous);
+      tangential = std::clamp(tangential - shear_dashpot * dot(relative, along),
+                              -std::max(limit, std::abs(tangential)), std::max(limit, std::abs(tangential)));
+      report.damping_power += contact.share * std::max(0.0, -(tangential - force.tangential) * slip);
+    }
+
+    const Point across = contact.share * (force.normal + viscous) * normal;
+    const Point shear = contact.share * tangential * along;
+    sink.at_corner(own, contact.vertex, across + shear);
+    sink.at_point(other, contact.side, own.at[contact.vertex], -1.0 * (across + shear));
+    const double to_b = contact.vertex_body == 1 ? 1 : -1;
+    seen = {own.at[contact.vertex].x, own.at[contact.vertex].y, to_b * across.x, to_b * across.y,
+            to_b * shear.x,           to_b * shear.y,           contact.depth,   force.slips ? 1.0 : 0.0};
+    return true;
+  }
+
+  SpringParameters springs(const Interface& interface, double tributary, bool intact) const {
+    const double normal = direct_ ? normal_spring_ : interface.normal_stiffness * tributary;
+    const double tangential = direct_ ? tangential_spring_ : interface.tangential_stiffness * tributary;
+    return {normal, tangential, interface.friction, intact ? interface.cohesion * tributary : 0,
+            intact ? interface.tensile * tributary : 0};
+  }
+
+  /// The interface of the edge with the flatter of the vertex's own edges.
+  static Interface interface_of(const Interfaces& interfaces, const Piece& own, const Piece& other,
+                                const CornerContact& contact) {
+    const std::uint32_t before = contact.vertex == 0 ? own.size() - 1 : contact.vertex - 1;
+    const Point along = other.tangent[contact.side];
+    const std::uint32_t edge =
+        dot(own.tangent[before], along) < dot(own.tangent[contact.vertex], along) ? before : contact.vertex;
+    const std::uint32_t row =
+        interfaces.row[own.surface[edge] * interfaces.surface_count + other.surface[contact.side]];
+    return read(interfaces.value + row * interfaces.parameter_count);
+  }
+
+  bool direct_;
+  double normal_spring_, tangential_spring_;
+};
+
+constexpr Component components[] = {{
+    ComponentKind::contact_model,
+    "vertex_edge",
+    "The contact of DDA: springs between vertices and edges, Mohr-Coulomb with tension cut-off.",
+    parameters,
+    std::size(parameters),
+    interface_parameters,
+    std::size(interface_parameters),
+    create_component<ContactModel, VertexEdge>,
+    destroy_component<ContactModel>,
+}};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = {.name = "vertex_edge",
+                                                   .version = "0.1.0",
+                                                   .author = "the talus authors",
+                                                   .components = components,
+                                                   .component_count = std::size(components)};

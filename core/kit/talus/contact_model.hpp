@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+
+namespace talus {
+
+/// `Boundaries::surface` of a side that is no boundary: a cut along which a concave body was divided.
+inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
+
+/// The boundaries of all bodies. A body is a set of convex *pieces* (one, if it is convex itself); a piece is
+/// a counter-clockwise ring of corners; side i of a piece runs from its corner i to the next. Positions are
+/// in the frame of the body: relative to the body's reference centre, displaced. All arrays are read-only.
+struct Boundaries {
+  const double* x;               ///< [corner] m
+  const double* y;               ///< [corner] m
+  const double* vx;              ///< [corner] m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
+  const double* vy;              ///< [corner] m/s
+  const std::uint32_t* surface;  ///< [corner] surface class of the side that starts here, or internal_side
+  const std::uint32_t* cut;      ///< [corner] of an internal side: the number of its cut within the body
+  const std::uint32_t* piece_start;  ///< [piece + 1] first corner of each piece
+};
+
+/// Parameters of the interface between two surface classes, in the order the law declared them.
+struct Interfaces {
+  const std::uint32_t* row;  ///< [surface * surface_count + surface]
+  const double* value;       ///< [row * parameter_count + parameter]
+  std::uint32_t surface_count;
+  std::uint32_t parameter_count;
+};
+
+/// A piece of body a and a piece of body b that are close enough to touch.
+struct PiecePair {
+  std::uint32_t a;
+  std::uint32_t b;
+  std::uint32_t load_start;  ///< first entry in Loads::fx of this piece pair: corners of a, then corners of b
+};
+
+/// Two bodies that are close enough to touch. The frame of a pair is the frame of body a.
+struct BodyPair {
+  std::uint32_t a;
+  std::uint32_t b;
+  std::uint32_t piece_pair_start;  ///< its piece pairs are [piece_pair_start, piece_pair_end)
+  std::uint32_t piece_pair_end;
+  double offset_x;      ///< m, added to a position of body b gives it in the frame of body a
+  double offset_y;      ///< m
+  double master_share;  ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
+  double reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
+                        ///< fixed
+  std::uint32_t slot_start;     ///< first contact slot of this pair
+  std::uint32_t slot_capacity;  ///< how many contacts it can hold
+  std::uint32_t
+      contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
+};
+
+/// What a law is given: a range of pairs at time t_n. Host memory, read-only.
+struct ContactBatch {
+  Boundaries boundaries;
+  Interfaces interfaces;
+  const BodyPair* pairs;  ///< [pair_count]
+  const PiecePair* piece_pairs;
+  const double* history;  ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
+  std::uint32_t pair_count;
+  double dt;        ///< s, from t_{n-1} to t_n
+  bool hold_stick;  ///< settling: friction is held stuck, no slip limit applies
+  bool bonds_form;  ///< first evaluation and settling: contacts found now are born intact
+};
+
+/// One contact, for pictures and diagnosis. In the frame of the pair.
+struct ContactReport {
+  double x, y;         ///< m, where the resultant acts
+  double px, py;       ///< N/m, normal force on body b
+  double tx, ty;       ///< N/m, tangential force on body b
+  double penetration;  ///< m, the largest
+  double slipping;     ///< 1 while it slips, 0 while it sticks
+};
+
+/// Per pair, for the energy ledger and the guards.
+struct PairReport {
+  std::uint32_t
+      contact_count;   ///< contacts found; if more than slot_capacity the host makes room and asks again
+  double penetration;  ///< m, the largest overlap depth of the pair
+  double stored;       ///< J/m, recoverable energy: normal and tangential springs
+  double slip_loss;    ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
+  double damping_power;  ///< J/m, damping force times displacement since t_{n-1}; never negative
+};
+
+/// What a law fills in. Every array is host memory, sized by the host, zero-filled before the call; the law
+/// writes only at indices of the pairs it was given.
+struct ContactLoads {
+  double* fx;       ///< [load] N/m at corners: PiecePair::load_start + position of the corner in the piece
+  double* fy;       ///< [load] N/m
+  double* history;  ///< [slot * doubles_per_contact] of t_n; separate from ContactBatch::history
+  ContactReport* reports;  ///< [slot]
+  PairReport* pairs;       ///< [pair_count], like ContactBatch::pairs
+};
+
+/// Springs a stretch of boundary can meet, for the time step.
+struct ContactStiffness {
+  double normal;  ///< N/m per metre of thickness, upper bound
+  double tangential;
+  double normal_damping_ratio;  ///< of critical, with the reduced mass
+  double tangential_damping_ratio;
+};
+
+/// A contact law. Const: all state lives in the host's history. Implementations are made by the plugin's
+/// `create` and must be callable from several threads at once with disjoint ranges of pairs.
+class ContactModel {
+ public:
+  virtual ~ContactModel() = default;
+
+  /// How many doubles of history the host keeps for each contact. A new contact starts with zeros.
+  virtual std::uint32_t doubles_per_contact() const noexcept = 0;
+
+  /// Turns the declared parameters of one interface, once, into what the step wants in their places (the
+  /// tangent of an angle, say). `evaluate` and `stiffness` get the prepared values.
+  virtual void prepare_interface(double* values) const noexcept { (void)values; }
+
+  /// Loads at t_n (Eqs. 28–44). Equal and opposite, without net moment, at the corners of the pieces.
+  virtual void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept = 0;
+
+  /// Bound of the springs on `length` metres of a body's side under prepared interface parameters (declared
+  /// order), as lumped at one corner at the end of a side of twice that length.
+  virtual ContactStiffness stiffness(const double* values, double length) const noexcept = 0;
+};
+
+}  // namespace talus

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <talus/contact_model.hpp>
+#include <talus/cover_builder.hpp>
+#include <talus/material.hpp>
+#include <talus/parameter.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <iterator>
+
+namespace talus {
+
+inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
+
+/// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
+inline constexpr std::uint32_t abi_number = 1;
+
+inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
+
+enum class ComponentKind : std::uint32_t { contact_model, material, cover_builder };
+
+struct Component {
+  ComponentKind kind;
+  const char* name;      ///< what a scene writes as "model"
+  const char* sentence;  ///< what it is, one sentence
+  const Parameter* parameters;
+  std::uint32_t parameter_count;
+  const Parameter* interface_parameters;  ///< contact models: what it reads of an interface
+  std::uint32_t interface_parameter_count;
+
+  /// Makes the object from `parameter_count` values. On failure returns nullptr with the reason in `error`
+  /// (zero-terminated, at most error_size bytes). Never throws.
+  void* (*create)(const double* values, char* error, std::size_t error_size) noexcept;
+  void (*destroy)(void* object) noexcept;
+};
+
+/// The one thing a plugin exports: `extern "C" const talus::Library talus_library`, constant-initialised, so
+/// that it can be read before any code of the plugin runs. The first three members never move.
+struct Library {
+  std::uint32_t magic = library_magic;
+  std::uint32_t abi = abi_number;
+  std::uint32_t library_size = sizeof(Library);
+  std::uint32_t component_size = sizeof(Component);
+  std::uint32_t parameter_size = sizeof(Parameter);
+  std::uint32_t contact_batch_size = sizeof(ContactBatch);
+  std::uint32_t contact_loads_size = sizeof(ContactLoads);
+  std::uint32_t body_pair_size = sizeof(BodyPair);
+  std::uint32_t material_batch_size = sizeof(MaterialBatch);
+  std::uint32_t outline_size = sizeof(Outline);
+  const char* units = unit_system;
+  const char* name = nullptr;
+  const char* version = nullptr;
+  const char* author = nullptr;
+  const Component* components = nullptr;
+  std::uint32_t component_count = 0;
+};
+
+/// Makes a `Model` behind its abstract class; what its constructor throws becomes the refusal's words. The
+/// object crosses the door as a pointer to the abstract `Interface`.
+template <class Interface, class Model>
+void* create_component(const double* values, char* error, std::size_t error_size) noexcept {
+  try {
+    return static_cast<Interface*>(new Model(values));
+  } catch (const std::exception& problem) {
+    std::snprintf(error, error_size, "%s", problem.what());
+  } catch (...) {
+    std::snprintf(error, error_size, "the constructor threw something that is no std::exception");
+  }
+  return nullptr;
+}
+
+template <class Interface>
+void destroy_component(void* object) noexcept {
+  delete static_cast<Interface*>(object);
+}
+
+}  // namespace talus
+
+#define TALUS_EXPORT extern "C" __attribute__((visibility("default")))

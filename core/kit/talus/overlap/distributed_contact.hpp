@@ -1,0 +1,427 @@
+#pragma once
+
+#include <talus/contact_model.hpp>
+#include <talus/overlap/cells.hpp>
+#include <talus/overlap/friction.hpp>
+#include <talus/overlap/grouping.hpp>
+
+#include <span>
+
+namespace talus::overlap {
+
+/// What the distributed law reads of an interface.
+struct InterfaceParameters {
+  double normal_stiffness = 0;      ///< α_N, Pa/m
+  double tangential_stiffness = 0;  ///< α_T, Pa/m
+  double friction = 0;              ///< μ = tan φ
+  double normal_damping = 0;        ///< share of critical
+  double tangential_damping = 0;
+
+  void add(double weight, const InterfaceParameters& other) {
+    normal_stiffness += weight * other.normal_stiffness;
+    tangential_stiffness += weight * other.tangential_stiffness;
+    friction += weight * other.friction;
+    normal_damping += weight * other.normal_damping;
+    tangential_damping += weight * other.tangential_damping;
+  }
+};
+
+/// Contact by the overlap area (§3): pressure α_N g over the overlap, g the distance to the nearest side of
+/// the master. `Law` says how an interface is read (`Law::interface(values)`), whether there is friction
+/// (`Law::frictional`) and by which rule (`rule()`). One object serves one thread.
+template <class Law>
+class DistributedContact {
+ public:
+  void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
+    for (std::uint32_t i = 0; i < batch.pair_count; ++i)
+      evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
+  }
+
+ private:
+  /// A part of the overlap nearest to one side of the master: the load it puts there and where.
+  struct Cell {
+    const Overlap* overlap;
+    std::uint32_t master;  ///< 0: body a, 1: body b
+    std::uint32_t side;
+    Point normal;  ///< outward of the master
+    Point foot;    ///< on the side, below the centroid
+    double load;   ///< N/m, normal
+    InterfaceParameters interface;
+    std::uint32_t segment_start, segment_end;
+  };
+
+  /// A sub-segment of the slave within a cell (Fig. 5), with its trapezoid load as two end loads.
+  struct Segment {
+    std::uint32_t side;
+    Point at[2];
+    double depth[2];
+    double length;
+    double load[2];  ///< N/m, at the two ends, normal to the slave
+    double share() const { return length * (depth[0] + depth[1]) / 2; }
+  };
+
+  void evaluate_pair(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                     const BodyPair& pair, PairReport& report) {
+    const std::uint32_t overlaps = finder_.find(batch, pair);
+    const std::uint32_t groups = finder_.group();
+    report.contact_count = groups;
+    if constexpr (Law::frictional) carry_history(batch, pair, report);
+    if (overlaps == 0) return;
+
+    const LoadSink sink{loads.fx, loads.fy};
+    for (std::uint32_t g = 0; g < groups; ++g) {
+      cells_.clear();
+      segments_.clear();
+      normal_on_b_ = {0, 0};
+      penetration_ = 0;
+      for (std::uint32_t master = 0; master < 2; ++master) {
+        const double share = master == 0 ? pair.master_share : 1 - pair.master_share;
+        if (share > 0) normal_loads(law, batch.interfaces, sink, g, master, share, report);
+      }
+      report.penetration = std::max(report.penetration, penetration_);
+      if (cells_.empty()) continue;
+      find_tangent();
+      measure_arcs(g, batch.dt);
+      normal_damping(sink, pair, batch.dt, report);
+      Point tangential{0, 0};
+      double slip = 0;
+      if constexpr (Law::frictional) {
+        FrictionHistory& history = carried_[g];
+        tangential = friction(law, batch, sink, pair, g, history, report);
+        slip = history.slip;
+        if (g < pair.slot_capacity)
+          write_history(history, loads.history + (pair.slot_start + g) * friction_doubles);
+      }
+      if (g < pair.slot_capacity) loads.reports[pair.slot_start + g] = contact_report(tangential, slip);
+    }
+  }
+
+  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
+  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
+  void normal_loads(const Law& law, const Interfaces& interfaces, const LoadSink& sink, std::uint32_t group,
+                    std::uint32_t master_body, double share, PairReport& report) {
+    const std::size_t first_cell = cells_.size();
+    balance_ = {};
+    bool uniform = true;
+    std::uint32_t members = 0;
+    for (const Overlap& overlap : finder_.overlaps()) {
+      if (overlap.group != group) continue;
+      ++members;
+      const Piece& master = overlap.piece[master_body];
+      const Piece& slave = overlap.piece[1 - master_body];
+      divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
+        const AreaCentroid region = area_centroid(cell);
+        if (!(region.area > 0)) return;
+        const auto first_segment = static_cast<std::uint32_t>(segments_.size());
+        find_segments(master, slave, side, 1 - master_body, cell);
+        const InterfaceParameters parameters =
+            interface_of(law, interfaces, overlap, master, slave, side, first_segment);
+        const double load = share * parameters.normal_stiffness * region.area;
+        const Point normal = master.normal(side);
+        const double depth = master.depth(side, region.centroid);
+        report.stored += load * depth;
+        normal_on_b_ = normal_on_b_ + (master_body == 0 ? load : -load) * normal;
+
+        const Point foot = region.centroid + depth * normal;
+        sink.on_side(master, side, master.lever(side, foot), -load * normal);
+        balance_.add(foot, -load * normal);
+        for (std::size_t s = first_segment; s < segments_.size(); ++s) {
+          load_slave(sink, slave, segments_[s], share * parameters.normal_stiffness);
+        }
+        if (cells_.size() > first_cell) {
+          uniform = uniform && cells_[first_cell].interface.normal_stiffness == parameters.normal_stiffness;
+        }
+        cells_.push_back({&overlap, master_body, side, normal, foot, load, parameters, first_segment,
+                          static_cast<std::uint32_t>(segments_.size())});
+      });
+    }
+    if ((members > 1 || !uniform) && cells_.size() > first_cell) close_balance(sink, first_cell);
+  }
+
+  void find_segments(const Piece& master, const Piece& slave, std::uint32_t side, std::uint32_t slave_body,
+                     const Polygon& cell) {
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const Point end = cell[i + 1 == cell.size() ? 0 : i + 1].at;
+      penetration_ = std::max(penetration_, master.depth(side, cell[i].at));
+      if (cell[i].side.body != slave_body || !slave.real(cell[i].side.index)) continue;
+      Segment segment{};
+      segment.side = cell[i].side.index;
+      segment.at[0] = cell[i].at;
+      segment.at[1] = end;
+      segment.depth[0] = std::max(0.0, master.depth(side, cell[i].at));
+      segment.depth[1] = std::max(0.0, master.depth(side, end));
+      segment.length = length(end - cell[i].at);
+      segments_.push_back(segment);
+    }
+  }
+
+  /// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load, so
+  /// that nothing jumps when a slave corner passes a division line.
+  InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, const Overlap& overlap,
+                                   const Piece& master, const Piece& slave, std::uint32_t side,
+                                   std::uint32_t first_segment) const {
+    const auto parameters_with = [&](std::uint32_t slave_side) {
+      const std::uint32_t row =
+          interfaces.row[master.surface[side] * interfaces.surface_count + slave.surface[slave_side]];
+      return law.interface(interfaces.value + row * interfaces.parameter_count);
+    };
+    double total = 0;
+    for (std::size_t s = first_segment; s < segments_.size(); ++s) total += segments_[s].share();
+    if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
+    if (segments_.size() == first_segment + 1) return parameters_with(segments_[first_segment].side);
+    InterfaceParameters mean;
+    for (std::size_t s = first_segment; s < segments_.size(); ++s) {
+      mean.add(segments_[s].share() / total, parameters_with(segments_[s].side));
+    }
+    return mean;
+  }
+
+  /// A side of the slave that bounds the overlap, for a cell that no slave boundary enters.
+  static std::uint32_t any_real_side(const Overlap& overlap, const Piece& slave) {
+    const std::uint32_t slave_body = &slave == &overlap.piece[0] ? 0 : 1;
+    for (const Corner& corner : overlap.polygon) {
+      if (corner.side.body == slave_body && slave.real(corner.side.index)) return corner.side.index;
+    }
+    std::uint32_t side = 0;
+    while (side + 1 < slave.size() && !slave.real(side)) ++side;
+    return side;
+  }
+
+  /// Eqs. 30–32 (with the factor 3 that Eq. 31 misses), as end loads: l/6 (2p₁+p₂) and l/6 (p₁+2p₂).
+  void load_slave(const LoadSink& sink, const Piece& slave, Segment& segment, double stiffness) {
+    const Point inward = -1.0 * slave.normal(segment.side);
+    for (int end = 0; end < 2; ++end) {
+      segment.load[end] = stiffness * segment.length * (2 * segment.depth[end] + segment.depth[1 - end]) / 6;
+      const Point force = segment.load[end] * inward;
+      sink.on_side(slave, segment.side, slave.lever(segment.side, segment.at[end]), force);
+      balance_.add(segment.at[end], force);
+    }
+  }
+
+  /// Where the stiffness changes within one overlap, or a deep overlap reaches past the cut of a concave
+  /// master, the pressure jumps along a division line and Eqs. 33–34 leave a remainder; the master takes it.
+  void close_balance(const LoadSink& sink, std::size_t first_cell) const {
+    const Cell* largest = &cells_[first_cell];
+    for (std::size_t c = first_cell; c < cells_.size(); ++c) {
+      if (cells_[c].load > largest->load) largest = &cells_[c];
+    }
+    const Piece& master = largest->overlap->piece[largest->master];
+    sink.on_side(master, largest->side, master.lever(largest->side, largest->foot), -1.0 * balance_.force);
+    sink.couple(master, largest->side, -balance_.moment_about(largest->foot));
+  }
+
+  /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it.
+  void find_tangent() {
+    const double size = length(normal_on_b_);
+    const Point normal = size > 0 ? (1 / size) * normal_on_b_ : cells_[0].normal;
+    tangent_ = {-normal.y, normal.x};
+  }
+
+  /// Eq. 38 with dl projected on s_c, so that both arcs, which share their ends, have one length and a pair
+  /// carried along together does not slip.
+  void measure_arcs(std::uint32_t group, double dt) {
+    double projected[2] = {0, 0}, moved[2] = {0, 0}, arc = 0;
+    for (const Overlap& overlap : finder_.overlaps()) {
+      if (overlap.group != group) continue;
+      const Polygon& polygon = overlap.polygon;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const SideLabel label = polygon[i].side;
+        const Piece& piece = overlap.piece[label.body];
+        if (!piece.real(label.index)) continue;
+        const Point start = polygon[i].at, end = polygon[i + 1 == polygon.size() ? 0 : i + 1].at;
+        const double along = dot(end - start, tangent_);
+        const Point velocity_sum = piece.velocity_at(label.index, piece.lever(label.index, start)) +
+                                   piece.velocity_at(label.index, piece.lever(label.index, end));
+        projected[label.body] += along;
+        moved[label.body] += along * dot(velocity_sum, tangent_) / 2;
+        arc += length(end - start);
+      }
+    }
+    contact_length_ = std::abs(projected[1]);
+    const bool measurable = contact_length_ > 1e-9 * arc && std::abs(projected[0]) > 1e-9 * arc;
+    slip_velocity_ = measurable ? moved[1] / projected[1] - moved[0] / projected[0] : 0;
+    slip_increment_ = slip_velocity_ * dt;
+    if (!measurable) contact_length_ = 0;
+  }
+
+  /// A dashpot along the contact, never pulling: η per metre such that ηL is the ratio of 2√(α_N L m).
+  void normal_damping(const LoadSink& sink, const BodyPair& pair, double dt, PairReport& report) {
+    if (contact_length_ == 0) return;
+    for (Cell& cell : cells_) {
+      if (cell.interface.normal_damping == 0) continue;
+      const double share = cell.master == 0 ? pair.master_share : 1 - pair.master_share;
+      const double viscosity =
+          share * 2 * cell.interface.normal_damping *
+          std::sqrt(cell.interface.normal_stiffness * pair.reduced_mass / contact_length_);
+      const Piece& master = cell.overlap->piece[cell.master];
+      const Piece& slave = cell.overlap->piece[1 - cell.master];
+      for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
+        const Segment& segment = segments_[s];
+        double rate[2];
+        for (int end = 0; end < 2; ++end) {
+          const Point at = segment.at[end];
+          const Point velocity = slave.velocity_at(segment.side, slave.lever(segment.side, at)) -
+                                 master.velocity_at(cell.side, master.lever(cell.side, at));
+          rate[end] = -dot(velocity, cell.normal);
+        }
+        for (int end = 0; end < 2; ++end) {
+          const double viscous = viscosity * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
+          const double force = std::max(viscous, -segment.load[end]);
+          const Point at = segment.at[end];
+          sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * cell.normal);
+          sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
+          report.damping_power += force * rate[end] * dt;
+          cell.load += force;
+        }
+      }
+      cell.load = std::max(0.0, cell.load);
+    }
+  }
+
+  /// Eqs. 37–44. Tangential loads act on both bodies at one common point of each cell, shared by μ_k P_k.
+  Point friction(const Law& law, const ContactBatch& batch, const LoadSink& sink, const BodyPair& pair,
+                 std::uint32_t group, FrictionHistory& history, PairReport& report) {
+    double load = 0, limit = 0, stiffness = 0, damping = 0;
+    for (const Cell& cell : cells_) {
+      load += cell.load;
+      limit += cell.interface.friction * cell.load;
+      stiffness += cell.interface.tangential_stiffness * cell.load;
+      damping += cell.interface.tangential_damping * cell.load;
+    }
+    const Point centre = centre_of(group);
+    history.x = centre.x;
+    history.y = centre.y;
+    const double old_stored = history.stored, old_applied = history.applied;
+    if (!(limit > 0) || contact_length_ == 0) {
+      report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
+      history = {0, 0, 0, contact_length_, centre.x, centre.y, 0};
+      return {0, 0};
+    }
+    const FrictionInput input{stiffness / load * contact_length_,
+                              batch.hold_stick ? std::numeric_limits<double>::infinity() : limit,
+                              contact_length_, slip_increment_};
+    history = advance(law.rule(), history, input);
+    report.stored += history.stored;
+    report.slip_loss +=
+        -(old_applied + history.applied) * slip_increment_ / 2 - (history.stored - old_stored);
+
+    double force = history.applied;
+    if (damping > 0 && history.slip == 0) {
+      const double viscosity = 2 * damping / load * std::sqrt(input.stiffness * pair.reduced_mass);
+      force = std::clamp(force - viscosity * slip_velocity_, -input.limit, input.limit);
+      report.damping_power += std::max(0.0, -(force - history.applied) * slip_increment_);
+    }
+    for (const Cell& cell : cells_) {
+      const double part = force * cell.interface.friction * cell.load / limit;
+      if (part != 0) tangential_loads(sink, cell, part);
+    }
+    return force * tangent_;
+  }
+
+  void tangential_loads(const LoadSink& sink, const Cell& cell, double force_on_b) const {
+    const Piece& master = cell.overlap->piece[cell.master];
+    const Piece& slave = cell.overlap->piece[1 - cell.master];
+    const Point on_slave = (cell.master == 0 ? force_on_b : -force_on_b) * tangent_;
+    sink.on_side(master, cell.side, master.lever(cell.side, cell.foot), -1.0 * on_slave);
+    double total = 0;
+    for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
+    if (!(total > 0)) {
+      sink.at_point(slave, any_real_side(*cell.overlap, slave), cell.foot, on_slave);
+      return;
+    }
+    for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
+      sink.at_point(slave, segments_[s].side, cell.foot, (segments_[s].share() / total) * on_slave);
+    }
+  }
+
+  Point centre_of(std::uint32_t group) const {
+    double area = 0;
+    Point moment{0, 0};
+    for (const Overlap& overlap : finder_.overlaps()) {
+      if (overlap.group != group) continue;
+      const AreaCentroid region = area_centroid(overlap.polygon);
+      area += region.area;
+      moment = moment + region.area * region.centroid;
+    }
+    return area > 0 ? (1 / area) * moment : cells_[0].foot;
+  }
+
+  /// Finds each old contact again among the new ones by place; where an overlap split, its spring force is
+  /// shared by length; where overlaps merged, V adds up; where one ended, its stored energy is lost.
+  void carry_history(const ContactBatch& batch, const BodyPair& pair, PairReport& report) {
+    carried_.assign(report.contact_count, FrictionHistory{});
+    spans_.clear();
+    if (pair.contact_count == 0) return;
+    for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(finder_.span(g, batch.dt));
+    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
+      const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
+      double total = 0;
+      const auto weight = [&](const GroupSpan& span) {
+        const bool same = length(span.centre - Point{old.x, old.y}) <= span.reach + old.contact_length / 2;
+        return same ? span.size : 0.0;
+      };
+      for (const GroupSpan& span : spans_) total += weight(span);
+      if (!(total > 0)) {
+        report.slip_loss += old.stored;
+        continue;
+      }
+      for (std::uint32_t g = 0; g < report.contact_count; ++g) {
+        const double share = weight(spans_[g]) / total;
+        if (share == 0) continue;
+        FrictionHistory& now = carried_[g];
+        now.elastic += share * old.elastic;
+        now.applied += share * old.applied;
+        now.stored += share * old.stored;
+        now.contact_length += share * old.contact_length;
+        now.slip = old.slip;
+      }
+    }
+  }
+
+  static FrictionHistory read_history(const double* from) {
+    return {from[0], from[1], from[2], from[3], from[4], from[5], from[6]};
+  }
+
+  static void write_history(const FrictionHistory& history, double* to) {
+    to[0] = history.elastic, to[1] = history.applied, to[2] = history.stored, to[3] = history.contact_length;
+    to[4] = history.x, to[5] = history.y, to[6] = history.slip;
+  }
+
+  ContactReport contact_report(Point tangential, double slip) const {
+    double load = 0;
+    Point moment{0, 0}, normal{0, 0};
+    for (const Cell& cell : cells_) {
+      load += cell.load;
+      moment = moment + cell.load * cell.foot;
+      normal = normal + (cell.master == 0 ? cell.load : -cell.load) * cell.normal;
+    }
+    const Point at = load > 0 ? (1 / load) * moment : cells_[0].foot;
+    return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
+  }
+
+  struct Balance {
+    Point force{0, 0};
+    double moment = 0;  ///< about the first point
+    Point origin{0, 0};
+    bool started = false;
+
+    void add(Point at, Point load) {
+      if (!started) origin = at, started = true;
+      force = force + load;
+      moment += cross(at - origin, load);
+    }
+    double moment_about(Point point) const { return moment - cross(point - origin, force); }
+  };
+
+  OverlapGroups finder_;
+  CellDivider divider_;
+  std::vector<Cell> cells_;
+  std::vector<Segment> segments_;
+  std::vector<FrictionHistory> carried_;
+  std::vector<GroupSpan> spans_;
+  Balance balance_;
+  Point normal_on_b_{0, 0}, tangent_{0, 0};
+  double contact_length_ = 0, slip_velocity_ = 0, slip_increment_ = 0, penetration_ = 0;
+};
+
+}  // namespace talus::overlap

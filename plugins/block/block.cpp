@@ -1,0 +1,50 @@
+// One equilateral triangle of three patches around each body: an affine block, the first-order block of DDA
+// (§5 of the paper, Fig. 16). See README.md beside.
+
+#include <talus/library.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace talus;
+
+class Block final : public CoverBuilder {
+ public:
+  explicit Block(const double* /*values*/) {}
+
+  /// The triangle is circumscribed to the circle about the centroid that reaches the farthest vertex.
+  void build(const Outline& outline, const AreaMoments& body, CoverSink& sink) const noexcept override {
+    double squared_radius = 0;
+    for (std::uint32_t i = 0; i < outline.loop_start[1]; ++i) {
+      squared_radius = std::fmax(squared_radius, outline.x[i] * outline.x[i] + outline.y[i] * outline.y[i]);
+    }
+    const double inradius = std::sqrt(squared_radius);
+    const double half_side = std::sqrt(3.0) * inradius;
+    const std::uint32_t patches[3] = {sink.add_patch(-half_side, -inradius),
+                                      sink.add_patch(half_side, -inradius), sink.add_patch(0, 2 * inradius)};
+    sink.add_element(patches, body);
+  }
+
+  std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
+};
+
+constexpr Component components[] = {{
+    ComponentKind::cover_builder,
+    "block",
+    "One triangle of three patches around each body: a block with uniform strain (first-order DDA).",
+    nullptr,
+    0,
+    nullptr,
+    0,
+    create_component<CoverBuilder, Block>,
+    destroy_component<CoverBuilder>,
+}};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = {.name = "block",
+                                                   .version = "0.1.0",
+                                                   .author = "the talus authors",
+                                                   .components = components,
+                                                   .component_count = std::size(components)};

@@ -1,0 +1,39 @@
+// A body that does not deform: three unknowns, no patch, no stress (DEM). See README.md beside.
+
+#include <talus/library.hpp>
+
+namespace {
+
+using namespace talus;
+
+class Rigid final : public CoverBuilder {
+ public:
+  explicit Rigid(const double* /*values*/) {}
+
+  void build(const Outline& /*outline*/, const AreaMoments& /*body*/,
+             CoverSink& sink) const noexcept override {
+    sink.make_rigid();
+  }
+
+  std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
+};
+
+constexpr Component components[] = {{
+    ComponentKind::cover_builder,
+    "rigid",
+    "A body of three unknowns that does not deform and carries no stress.",
+    nullptr,
+    0,
+    nullptr,
+    0,
+    create_component<CoverBuilder, Rigid>,
+    destroy_component<CoverBuilder>,
+}};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = {.name = "rigid",
+                                                   .version = "0.1.0",
+                                                   .author = "the talus authors",
+                                                   .components = components,
+                                                   .component_count = std::size(components)};
