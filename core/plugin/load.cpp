@@ -1,0 +1,104 @@
+#include "plugin/refusal.hpp"
+#include "plugin/registry.hpp"
+
+#define BOOST_DLL_USE_STD_FS
+#include <boost/dll/shared_library.hpp>
+
+#include <dlfcn.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* symbol = "talus_library";
+
+/// What the loader of the system says, out of the sentence Boost.DLL wraps around it.
+std::string loader_words(const std::string& message) {
+  constexpr std::string_view lead = "(dlerror system message: ";
+  const std::size_t start = message.find(lead);
+  const std::size_t end = message.rfind("):");
+  if (start == std::string::npos || end == std::string::npos || end < start) return message;
+  return message.substr(start + lead.size(), end - start - lead.size());
+}
+
+/// Everything is resolved now, so that a missing function is found here and not in the middle of a run, and
+/// no symbol of one plugin is seen by another. The mapping outlives the handle: objects, tables and code of
+/// plugins are in use until the process ends.
+boost::dll::shared_library open_for_good(const fs::path& file) {
+  using boost::dll::load_mode::type;
+  const type mode =
+      static_cast<type>(boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local | RTLD_NODELETE);
+  return boost::dll::shared_library(file, mode);
+}
+
+/// Loads a library and adds its components, or says why not.
+std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path& file) {
+  std::error_code problem;
+  if (!fs::exists(file, problem)) {
+    return "found no such file, wanted a talus plugin (lib*.so); check the path";
+  }
+  if (fs::is_directory(file, problem)) {
+    return "found a folder, wanted a talus plugin (lib*.so); name the file, or give the folder to "
+           "--plugin-path";
+  }
+  const Library* library = nullptr;
+  try {
+    const boost::dll::shared_library opened = open_for_good(file);
+    if (!opened.has(symbol)) {
+      return fmt::format(
+          "found no symbol '{}', wanted the descriptor of a talus plugin; export it with "
+          "TALUS_EXPORT, or take the file out of the folders of plugins",
+          symbol);
+    }
+    library = &opened.get<const Library>(symbol);
+  } catch (const std::exception& trouble) {
+    return fmt::format(
+        "found a file that the system cannot load: {}; wanted a talus plugin with nothing "
+        "undefined; rebuild it on this machine, linked with what it uses",
+        loader_words(trouble.what()));
+  }
+  if (auto reason = reason_to_refuse(*library)) return reason;
+  if (auto reason = reason_of_clash(registry, *library)) return reason;
+  registry.add(*library, file);
+  return std::nullopt;
+}
+
+}  // namespace
+
+void load_library(Registry& registry, const fs::path& file) {
+  // A bare name would be looked up in the current directory, or in the folders of the system.
+  const fs::path path = fs::absolute(file).lexically_normal();
+  if (const auto reason = reason_not_loaded(registry, path)) throw refusal(path, *reason);
+}
+
+void load_folders(Registry& registry, std::span<const fs::path> folders) {
+  for (const fs::path& folder : folders) {
+    const fs::path path = fs::absolute(folder).lexically_normal();
+    std::error_code problem;
+    std::vector<fs::path> files;
+    for (auto entry = fs::directory_iterator(path, problem); entry != fs::directory_iterator();
+         entry.increment(problem)) {
+      const fs::path& file = entry->path();
+      if (file.extension() == ".so" && file.filename().string().starts_with("lib")) files.push_back(file);
+    }
+    if (problem) {
+      registry.refused.push_back(
+          {path, fmt::format("found no folder that can be read ({}), wanted one with "
+                             "talus plugins; check --plugin-path and TALUS_PLUGIN_PATH",
+                             problem.message())});
+    }
+    std::ranges::sort(files);
+    for (const fs::path& file : files) {
+      if (auto reason = reason_not_loaded(registry, file)) {
+        registry.refused.push_back({file, *std::move(reason)});
+      }
+    }
+  }
+}
+
+}  // namespace talus

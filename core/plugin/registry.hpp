@@ -1,0 +1,80 @@
+#pragma once
+
+#include <talus/library.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// A library that does not fit, in words: the file, what was found, what was wanted, what to do.
+class PluginError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A component with the library it came from. Stays valid as long as the process: libraries are never
+/// unloaded.
+struct RegisteredComponent {
+  const Component* component;
+  const Library* library;
+  std::filesystem::path file;
+};
+
+struct RefusedLibrary {
+  std::filesystem::path file;
+  std::string reason;  ///< without the name of the file
+};
+
+/// The components that can be named by a scene.
+class Registry {
+ public:
+  /// Takes all components of a checked library, or none: throws PluginError when a name is already taken.
+  void add(const Library& library, const std::filesystem::path& file);
+
+  const RegisteredComponent* find(ComponentKind kind, std::string_view name) const;
+  std::vector<std::string> names(ComponentKind kind) const;  ///< sorted
+  std::span<const RegisteredComponent> components() const { return components_; }
+  std::vector<RefusedLibrary> refused;  ///< libraries of the search folders that did not fit
+
+ private:
+  std::vector<RegisteredComponent> components_;
+};
+
+/// Words for what is wrong with a descriptor, or nothing if it fits this program (magic, ABI, sizes, units,
+/// tables).
+std::optional<std::string> reason_to_refuse(const Library& library);
+
+/// Loads one library by its absolute path and adds its components. Throws PluginError.
+void load_library(Registry& registry, const std::filesystem::path& file);
+
+/// Loads `lib*.so` of each folder in order and in sorted order within; a library that does not fit goes to
+/// `registry.refused`. A component name found in an earlier folder wins silently only over the same file.
+void load_folders(Registry& registry, std::span<const std::filesystem::path> folders);
+
+/// --plugin-path entries, then TALUS_PLUGIN_PATH (colon-separated), then lib/talus/plugins of the
+/// installation this program belongs to.
+std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line);
+
+/// Owns an object made by a plugin, destroyed by the same plugin.
+template <class Interface>
+using Made = std::unique_ptr<Interface, void (*)(void*) noexcept>;
+
+/// Makes a component. Throws PluginError with the words of its constructor when it fails.
+template <class Interface>
+Made<Interface> make(const RegisteredComponent& entry, std::span<const double> values) {
+  char error[512] = "";
+  void* object = entry.component->create(values.data(), error, sizeof error);
+  if (object == nullptr) {
+    throw PluginError(entry.file.string() + ": '" + entry.component->name + "' could not be made: " + error);
+  }
+  return Made<Interface>(static_cast<Interface*>(object), entry.component->destroy);
+}
+
+}  // namespace talus
