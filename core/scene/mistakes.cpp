@@ -1,0 +1,102 @@
+#include "scene/mistakes.hpp"
+
+#include "scene/positions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace talus {
+namespace {
+
+std::string all_lines(const std::vector<Mistake>& mistakes) {
+  std::string lines;
+  for (const Mistake& mistake : mistakes) {
+    if (!lines.empty()) lines += '\n';
+    lines += mistake.text();
+  }
+  return lines;
+}
+
+bool is_within(const std::string& pointer, const std::string& ancestor) {
+  return pointer.starts_with(ancestor) &&
+         (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');
+}
+
+/// The root for what is no pointer at all: an override may be anything.
+std::string parent_of(const std::string& pointer) {
+  const std::size_t slash = pointer.rfind('/');
+  return slash == std::string::npos ? std::string() : pointer.substr(0, slash);
+}
+
+/// The place of a value, or that of the nearest one around it that the text holds.
+Place nearest_place(const std::map<std::string, Places>& places, std::string pointer, bool at_key) {
+  while (true) {
+    if (const auto found = places.find(pointer); found != places.end()) {
+      return at_key ? found->second.key : found->second.value;
+    }
+    if (pointer.empty()) return {1, 1};
+    pointer = parent_of(pointer);
+  }
+}
+
+}  // namespace
+
+std::string Mistake::text() const {
+  const std::string place = line == 0 ? file : fmt::format("{}:{}:{}", file, line, column);
+  return pointer.empty() ? fmt::format("{}: {}", place, message)
+                         : fmt::format("{}: {}: {}", place, pointer, message);
+}
+
+SceneError::SceneError(std::vector<Mistake> all)
+    : std::runtime_error(all_lines(all)), mistakes(std::move(all)) {}
+
+std::string command_of(const Override& override_) {
+  return fmt::format("--set {}={}", override_.pointer, override_.value);
+}
+
+void Mistakes::add(std::string pointer, std::string message) {
+  found_.push_back({std::move(pointer), std::move(message), {}, false});
+}
+
+void Mistakes::add_at_key(std::string pointer, std::string message) {
+  found_.push_back({std::move(pointer), std::move(message), {}, true});
+}
+
+void Mistakes::add_to_command(std::string command, std::string pointer, std::string message) {
+  found_.push_back({std::move(pointer), std::move(message), std::move(command), false});
+}
+
+std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string& file,
+                                      const std::vector<Override>& overrides,
+                                      std::vector<Mistake> parsed) const {
+  std::set<std::string> wanted;
+  for (const Found& found : found_) {
+    for (std::string pointer = found.pointer;; pointer = parent_of(pointer)) {
+      wanted.insert(pointer);
+      if (pointer.empty()) break;
+    }
+  }
+  const std::map<std::string, Places> places = find_places(text, wanted);
+  std::vector<Mistake> placed = std::move(parsed);
+  for (const Found& found : found_) {
+    std::string command = found.command;
+    for (const Override& override_ : overrides) {  // the last one that wrote the value
+      if (is_within(found.pointer, override_.pointer)) command = command_of(override_);
+    }
+    if (!command.empty()) {
+      placed.push_back({command, 0, 0, found.pointer, found.message});
+      continue;
+    }
+    const Place place = nearest_place(places, found.pointer, found.at_key);
+    placed.push_back({file, place.line, place.column, found.pointer, found.message});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const Mistake& a, const Mistake& b) {
+    return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
+  });
+  return placed;
+}
+
+}  // namespace talus

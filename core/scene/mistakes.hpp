@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scene/read.hpp"
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Collects all mistakes of a scene; where they stand is sought at the end.
+class Mistakes {
+ public:
+  void add(std::string pointer, std::string message);         ///< at the value
+  void add_at_key(std::string pointer, std::string message);  ///< at the key of the value
+  void add_to_command(std::string command, std::string pointer, std::string message);  ///< at a --set
+
+  std::size_t count() const { return found_.size(); }
+
+  /// In the order of the file, then those of the overrides. A mistake in a value that an override wrote
+  /// points at the override. `parsed` are those that the parser placed already.
+  std::vector<Mistake> placed(const std::string& text, const std::string& file,
+                              const std::vector<Override>& overrides, std::vector<Mistake> parsed) const;
+
+ private:
+  struct Found {
+    std::string pointer, message, command;
+    bool at_key;
+  };
+  std::vector<Found> found_;
+};
+
+/// "--set /time/dt=1e-4"
+std::string command_of(const Override& override_);
+
+}  // namespace talus

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// The name that `word` was probably meant to be, or "" if none resembles it.
+std::string nearest(const std::string& word, const std::vector<std::string>& names);
+
+/// " did you mean "fix"?", or nothing.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
+
+/// "a, b, c", or "(none)".
+std::string listed(const std::vector<std::string>& names);
+
+}  // namespace talus

@@ -1,0 +1,97 @@
+#include "scene/overrides.hpp"
+
+#include "scene/nearest.hpp"
+#include "scene/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace talus {
+namespace {
+
+/// "/a/b~1c" to "a", "b/c".
+std::optional<std::vector<std::string>> split(const std::string& pointer) {
+  if (!pointer.starts_with('/')) return std::nullopt;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < pointer.size(); ++i) {
+    const char c = pointer[i];
+    if (c == '/') {
+      parts.emplace_back();
+    } else if (c == '~') {
+      const char next = i + 1 < pointer.size() ? pointer[++i] : '\0';
+      if (next != '0' && next != '1') return std::nullopt;
+      parts.back() += next == '0' ? '~' : '/';
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The value as JSON, or as the text that it is.
+std::optional<Json> value_of(const std::string& written, std::string& problem) {
+  ParsedText parsed = parse_json(written, {});
+  if (parsed.complete && parsed.mistakes.empty()) return std::move(parsed.value);
+  const std::size_t first = written.find_first_not_of(" \t");
+  const bool meant_as_json =
+      first != std::string::npos && std::string_view("{[\"").find(written[first]) != std::string_view::npos;
+  if (!meant_as_json) return Json(written);
+  problem = parsed.mistakes.front().message;
+  return std::nullopt;
+}
+
+/// The entry of `parent` named by `part`, with the reason where there is none.
+Json* step(Json& parent, const std::string& part, bool may_be_new, std::string& problem) {
+  if (parent.is_object()) {
+    if (may_be_new || parent.contains(part)) return &parent[part];
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : parent.items()) keys.push_back(key);
+    problem = fmt::format("the scene has no \"{}\" here;{} it has: {}", part, did_you_mean(part, keys),
+                          listed(keys));
+    return nullptr;
+  }
+  if (!parent.is_array()) {
+    problem =
+        fmt::format("\"{}\" cannot be set within {}: expected an object or a list", part, shown(parent));
+    return nullptr;
+  }
+  const bool number =
+      !part.empty() && part.size() < 10 && part.find_first_not_of("0123456789") == std::string::npos;
+  if (number && std::stoul(part) < parent.size()) return &parent[std::stoul(part)];
+  problem = parent.empty() ? fmt::format("the list has no entry \"{}\": it is empty", part)
+                           : fmt::format("the list has no entry \"{}\": expected a number from 0 to {}", part,
+                                         parent.size() - 1);
+  return nullptr;
+}
+
+void apply(Json& scene, const Override& override_, Mistakes& mistakes) {
+  const auto parts = split(override_.pointer);
+  if (!parts) {
+    mistakes.add_to_command(command_of(override_), override_.pointer,
+                            "this is no JSON pointer: expected one such as /time/dt, with / before each key");
+    return;
+  }
+  std::string problem;
+  std::optional<Json> value = value_of(override_.value, problem);
+  Json* at = &scene;
+  std::string so_far;
+  for (std::size_t i = 0; i < parts->size() && at != nullptr && value; ++i) {
+    so_far = below(so_far, (*parts)[i]);
+    at = step(*at, (*parts)[i], i + 1 == parts->size(), problem);
+  }
+  if (at != nullptr && value) {
+    *at = std::move(*value);
+  } else {
+    mistakes.add_to_command(command_of(override_), value ? so_far : override_.pointer, problem);
+  }
+}
+
+}  // namespace
+
+void apply_overrides(Json& scene, const std::vector<Override>& overrides, Mistakes& mistakes) {
+  for (const Override& override_ : overrides) apply(scene, override_, mistakes);
+}
+
+}  // namespace talus

@@ -1,0 +1,85 @@
+#include "scene/read.hpp"
+
+#include "output/whole_file.hpp"
+#include "scene/bodies.hpp"
+#include "scene/contact.hpp"
+#include "scene/interfaces.hpp"
+#include "scene/libraries.hpp"
+#include "scene/loads.hpp"
+#include "scene/materials.hpp"
+#include "scene/monitors.hpp"
+#include "scene/overrides.hpp"
+#include "scene/stages.hpp"
+#include "scene/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace talus {
+namespace {
+
+constexpr int format_number = 1;
+
+void read_format(Section& root) {
+  const Json* written =
+      root.required_child("talus", fmt::format("the number of the format, {}", format_number));
+  root.resolved["talus"] = format_number;
+  if (written == nullptr || *written == format_number) return;
+  root.mistakes().add(root.pointer_to("talus"), fmt::format("format {} is unknown: this program reads {}",
+                                                            shown(*written), format_number));
+}
+
+void read_world(Reading& reading, Section& root) {
+  reading.scene.title = root.text("title", "a text", "");
+  reading.scene.origin = root.pair(table::of(table::world, "origin"));
+  reading.scene.gravity = root.pair(table::of(table::world, "gravity"));
+  reading.scene.damping = root.value(table::of(table::world, "damping"));
+}
+
+void read_sections(Reading& reading, Section& root, const std::filesystem::path& folder, bool allow_plugins) {
+  read_format(root);
+  read_libraries(reading, root, folder, allow_plugins);
+  read_world(reading, root);
+  read_materials(reading, root);
+  read_bodies(reading, root);
+  const ContactSection contact = read_contact(reading, root);
+  read_interfaces(reading, root, contact);
+  read_loads(reading, root);
+  read_prescribed(reading, root);
+  read_settle(reading, root);
+  read_monitors(reading, root);
+  read_time(reading, root);
+  read_output(reading, root);
+  read_limits(reading, root);
+  read_tolerances(reading, root);
+  root.finish();
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& name, Registry& registry,
+                      const ReadOptions& options) {
+  ParsedText parsed = parse_json(text, name);
+  if (!parsed.complete) throw SceneError(std::move(parsed.mistakes));
+
+  Mistakes mistakes;
+  apply_overrides(parsed.value, options.overrides, mistakes);
+  Reading reading{registry, mistakes};
+  reading.scene.file = name;
+  Section root(&parsed.value, "", mistakes);
+  if (parsed.value.is_object()) {
+    read_sections(reading, root, std::filesystem::path(name).parent_path(), options.allow_plugins);
+  }
+  if (mistakes.count() != 0 || !parsed.mistakes.empty()) {
+    throw SceneError(mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes)));
+  }
+  reading.scene.resolved = root.resolved.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return std::move(reading.scene);
+}
+
+Scene read_scene(const std::filesystem::path& file, Registry& registry, const ReadOptions& options) {
+  return read_scene_text(read_whole_file(file), file.string(), registry, options);
+}
+
+}  // namespace talus

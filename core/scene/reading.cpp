@@ -1,0 +1,55 @@
+#include "scene/reading.hpp"
+
+#include "scene/nearest.hpp"
+#include "scene/polygons.hpp"
+#include "scene/tables.hpp"
+
+#include <fmt/format.h>
+
+namespace talus {
+
+bool check_name(const std::string& name, const std::string& pointer, Mistakes& mistakes) {
+  const bool blank = name.empty() || name.find_first_not_of(' ') == std::string::npos;
+  bool good = !blank && name != "*";
+  for (const char c : name) {
+    if (std::string_view("/,.\"").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20)
+      good = false;
+  }
+  if (!good) {
+    mistakes.add(pointer, fmt::format("{} is no name: expected text without / , . \" and other than \"*\"",
+                                      shown(Json(name))));
+  }
+  return good;
+}
+
+std::optional<std::uint32_t> take_reference(Section& section, const std::string& key, const std::string& what,
+                                            const std::map<std::string, std::uint32_t>& index) {
+  const std::size_t mistakes_before = section.mistakes().count();
+  const std::string name = section.text(key, fmt::format("the name of a {}", what));
+  if (const auto found = index.find(name); found != index.end()) return found->second;
+  if (section.has(key) && section.mistakes().count() == mistakes_before) {
+    std::vector<std::string> names;
+    for (const auto& [known, position] : index) names.push_back(known);
+    section.mistakes().add(section.pointer_to(key),
+                           fmt::format("there is no {} \"{}\";{} known: {}", what, name,
+                                       did_you_mean(name, names), listed(names)));
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec2> take_point(const Reading& reading, Section& section, std::optional<std::uint32_t> body) {
+  const std::optional<Vec2> point = section.optional_pair(table::coordinate);
+  if (!point || !body || !reading.sound[*body]) return point;
+  const SceneBody& of = reading.scene.bodies[*body];
+  Loops loops{of.outer.vertices};
+  for (const Loop& hole : of.holes) loops.push_back(hole.vertices);
+  if (!contains(loops, *point, 1e-6 * extent(loops))) {
+    section.mistakes().add(
+        section.pointer_to("point"),
+        fmt::format("({}, {}) is no point of body \"{}\": expected one within it or on its boundary",
+                    point->x, point->y, of.name));
+  }
+  return point;
+}
+
+}  // namespace talus

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "plugin/registry.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct Vec2 {
+  double x = 0, y = 0;
+};
+
+/// A component chosen by a scene, with its parameters in declared order (SI, radians).
+struct Choice {
+  const RegisteredComponent* component = nullptr;
+  std::vector<double> values;
+};
+
+struct SceneMaterial {
+  std::string name;
+  double density;  ///< kg/m³
+  Choice model;    ///< component is nullptr where no body needs one (rigid bodies)
+};
+
+/// A class of boundary sides that share interface parameters: a material, and a surface name or "".
+struct SurfaceClass {
+  std::string material;
+  std::string surface;
+};
+
+struct Loop {
+  std::vector<Vec2> vertices;                ///< m, relative to the scene's origin
+  std::vector<std::uint32_t> surface_class;  ///< [edge] index into Scene::surfaces; edge i runs from vertex i
+};
+
+/// What is prescribed of a body as a whole; absent entries are free.
+struct Support {
+  std::optional<double> x, y;      ///< m/s, velocity of the centre of mass; 0 fixes it
+  std::optional<double> rotation;  ///< rad/s
+};
+
+struct SceneBody {
+  std::string name;
+  Loop outer;               ///< counter-clockwise
+  std::vector<Loop> holes;  ///< clockwise
+  std::uint32_t material;   ///< index into Scene::materials
+  Choice cover;             ///< component is nullptr for a fixed body
+  bool fixed = false;       ///< no unknowns
+  Support support;
+  Vec2 velocity;                ///< m/s at t = 0
+  double angular_velocity = 0;  ///< rad/s at t = 0
+  double priority = 0;          ///< with roles by priority: the higher one is master
+};
+
+struct PointLoad {
+  std::uint32_t body;
+  Vec2 point;  ///< m, in the scene's coordinates at the start; moves with the body
+  Vec2 force;  ///< N/m
+};
+
+/// Eqs. 18–20: λ∫(u − ū) over a named surface of a body, ū = displacement · min(t/ramp, 1) + velocity · t.
+struct PrescribedSurface {
+  std::uint32_t body;
+  std::uint32_t surface_class;
+  double stiffness;                                   ///< λ, Pa/m
+  double ramp;                                        ///< s
+  std::array<std::optional<double>, 2> displacement;  ///< m, per axis
+  std::array<std::optional<double>, 2> velocity;      ///< m/s, per axis; an axis with neither is free
+};
+
+struct Monitor {
+  std::string name;
+  std::uint32_t body;
+  std::optional<Vec2> point;  ///< of the body at the start; its centre of mass if absent
+  std::vector<std::string> quantities;
+};
+
+struct Settle {
+  double duration;  ///< s
+  double damping;   ///< 1/s, mass-proportional
+};
+
+struct TimeSettings {
+  double end;                ///< s
+  std::optional<double> dt;  ///< s; automatic if absent
+  double safety;             ///< share of the critical time step taken when automatic
+};
+
+struct OutputSettings {
+  double history;                ///< s
+  std::optional<double> frames;  ///< s; no frames if absent
+};
+
+struct Limits {
+  double energy_residual;  ///< share of the energy throughput at which a run stops
+  double penetration;      ///< share of the smallest width of a body at which a run stops
+};
+
+/// Compare: how far a monitor may part from the baseline (the first run) or from the reference file.
+struct Tolerance {
+  std::string monitor, quantity;
+  bool against_reference;
+  std::optional<double> largest, rms, final;
+};
+
+/// A scene that passed validation.
+struct Scene {
+  std::string file, title;
+  Vec2 origin;  ///< m, world coordinates of the scene's (0, 0); added on output only
+  Vec2 gravity;
+  std::vector<SceneMaterial> materials;
+  std::vector<SurfaceClass> surfaces;
+  Choice contact;  ///< component is nullptr where no two bodies can meet
+  bool roles_by_priority = false;
+  /// Interface parameters of the contact law in declared order: row of each pair of surface classes
+  /// [i * surfaces.size() + j], symmetric.
+  std::vector<std::uint32_t> interface_row;
+  std::vector<std::vector<double>> interface_values;
+  std::vector<SceneBody> bodies;
+  std::vector<PointLoad> loads;
+  std::vector<PrescribedSurface> prescribed;
+  double damping = 0;  ///< 1/s, mass-proportional
+  std::optional<Settle> settle;
+  std::vector<Monitor> monitors;
+  TimeSettings time;
+  OutputSettings output;
+  Limits limits;
+  std::vector<Tolerance> tolerances;
+  std::vector<std::string>
+      warnings;          ///< what a reviewer would raise, e.g. cohesion given to a law that reads none
+  std::string resolved;  ///< the scene as JSON text with every default spelled out
+};
+
+}  // namespace talus

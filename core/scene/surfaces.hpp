@@ -1,0 +1,23 @@
+#pragma once
+
+#include "scene/reading.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// A surface class with the body that it is limited to, where an interface names it as "body/surface".
+struct NumberedSurface {
+  std::string material, surface, body;
+};
+
+/// Gives each edge its class: equal material and surface name are one class, except for surfaces that
+/// `single` names as "body/surface". Notes surfaces and materials of the same name.
+std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<std::string>& single);
+
+/// [class * class_count + class] whether two bodies, one of which moves, can meet with these classes.
+std::vector<bool> meetings(const Scene& scene);
+
+}  // namespace talus

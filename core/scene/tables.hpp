@@ -1,0 +1,139 @@
+#pragma once
+
+#include "scene/section.hpp"
+
+#include <span>
+#include <string_view>
+
+/// What a user can set in the core's own sections, declared once. Lists of two numbers carry the unit and
+/// range of each entry.
+namespace talus::table {
+
+inline constexpr double largest_coordinate = 1e9;  // m; beyond it a double cannot tell 1e-7 m
+
+inline constexpr Parameter world[] = {
+    number("origin", "m", 0, -unbounded, unbounded,
+           "World coordinates of the scene's (0, 0); added to what is written, so that far-away scenes lose "
+           "no digits."),
+    number("gravity", "m/s2", 0, -unbounded, unbounded, "Acceleration of gravity [gx, gy]."),
+    number("damping", "1/s", 0, 0, unbounded,
+           "Global damping force per mass and velocity, all the run long."),
+};
+
+inline constexpr Parameter material[] = {
+    number("density", "kg/m3", required, above_zero, unbounded, "Mass per volume."),
+};
+
+inline constexpr Parameter contact[] = {
+    choice(
+        "roles", "symmetric|priority", 0,
+        "Whether two moving bodies are master in turn, each by half, or the one of higher priority alone."),
+};
+
+inline constexpr Parameter coordinate = number("point", "m", required, -largest_coordinate,
+                                               largest_coordinate, "Coordinates [x, y] in the scene.");
+
+inline constexpr Parameter body[] = {
+    flag("fixed", false, "Whether the body stays where it is and has no unknowns."),
+    number("velocity", "m/s", 0, -unbounded, unbounded, "Velocity [vx, vy] at the start."),
+    number("angular_velocity", "deg/s", 0, -unbounded, unbounded,
+           "Angular velocity at the start, counter-clockwise."),
+    number("priority", "-", 0, -unbounded, unbounded,
+           "With roles by priority the body of the higher number is master."),
+};
+
+inline constexpr Parameter drive[] = {
+    number("x", "m/s", not_set, -unbounded, unbounded, "Prescribed velocity of the centre of mass along x."),
+    number("y", "m/s", not_set, -unbounded, unbounded, "Prescribed velocity of the centre of mass along y."),
+    number("rotation", "deg/s", not_set, -unbounded, unbounded, "Prescribed angular velocity."),
+};
+
+/// What interfaces can say whatever law is chosen; a law declares those it reads.
+inline constexpr Parameter interface[] = {
+    number("normal_stiffness", "Pa/m", required, above_zero, unbounded, "Pressure per depth of overlap."),
+    number("tangential_stiffness", "Pa/m", required, 0, unbounded, "Shear stress per slip while it sticks."),
+    number("friction_angle", "deg", required, 0, 89.9999999, "Angle of Coulomb friction."),
+    number("cohesion", "Pa", 0, 0, unbounded, "Shear strength without pressure."),
+    number("tensile_strength", "Pa", 0, 0, unbounded, "Tension at which the interface opens."),
+    number("normal_damping", "-", required, 0, unbounded, "Normal damping as a share of critical."),
+    number("tangential_damping", "-", required, 0, unbounded, "Tangential damping as a share of critical."),
+};
+
+inline constexpr Parameter load[] = {
+    number("force", "N/m", required, -unbounded, unbounded, "Force [fx, fy] per metre of thickness."),
+};
+
+inline constexpr Parameter prescribed[] = {
+    number("stiffness", "Pa/m", required, above_zero, unbounded,
+           "Penalty that holds the surface (Eqs. 18-20)."),
+    number("ramp", "s", 0, 0, unbounded, "Time over which the displacement grows to its full size."),
+    number("displacement", "m", not_set, -unbounded, unbounded,
+           "Displacement [ux, uy]; null leaves an axis free."),
+    number("velocity", "m/s", not_set, -unbounded, unbounded, "Velocity [vx, vy]; null leaves an axis free."),
+};
+
+inline constexpr Parameter settle[] = {
+    number("duration", "s", required, above_zero, unbounded, "How long the scene settles before t = 0."),
+    number("damping", "1/s", required, above_zero, unbounded, "Global damping while it settles."),
+};
+
+inline constexpr Parameter time[] = {
+    number("end", "s", required, above_zero, unbounded, "When the run ends."),
+    number("dt", "s", not_set, above_zero, unbounded,
+           "Time step; \"auto\" takes it from votes of bodies and contacts."),
+    number("safety", "-", 0.2, above_zero, 0.4,
+           "Share of the critical time step that is taken when automatic."),
+};
+
+inline constexpr Parameter output[] = {
+    number("history", "s", not_set, above_zero, unbounded,
+           "Interval of the history; a 500th of the run if left out, or a little less to divide the frames' "
+           "interval."),
+    number("frames", "s", not_set, above_zero, unbounded, "Interval of the frames; none if left out."),
+};
+
+inline constexpr Parameter limits[] = {
+    number("energy_residual", "-", 0.05, above_zero, unbounded,
+           "Share of the energy throughput that may go missing before a run stops."),
+    number("penetration", "-", 0.3, above_zero, unbounded,
+           "Share of the smallest width of a body that an overlap may reach before a run stops."),
+};
+
+inline constexpr Parameter tolerance[] = {
+    choice("against", "baseline|reference", 0, "Whether the first run or the reference file is right."),
+    number("largest", "-", not_set, 0, unbounded, "Largest deviation allowed, in the unit of the quantity."),
+    number("rms", "-", not_set, 0, unbounded, "Root mean square of the deviation allowed."),
+    number("final", "-", not_set, 0, unbounded, "Deviation allowed at the end."),
+};
+
+/// A parameter by its key; a key that the table does not hold does not compile.
+consteval const Parameter& of(std::span<const Parameter> parameters, std::string_view key) {
+  for (const Parameter& parameter : parameters) {
+    if (parameter.key == key) return parameter;
+  }
+  throw "no such key";
+}
+
+/// A section of the scene with its table, for descriptions.
+struct Described {
+  const char* pointer;
+  std::span<const Parameter> parameters;
+};
+
+inline constexpr Described all[] = {
+    {"/", world},
+    {"/materials/*", material},
+    {"/contact", contact},
+    {"/interfaces/*", interface},
+    {"/bodies/*", body},
+    {"/bodies/*/drive", drive},
+    {"/loads/*", load},
+    {"/prescribed/*", prescribed},
+    {"/settle", settle},
+    {"/time", time},
+    {"/output", output},
+    {"/limits", limits},
+    {"/tolerances/*", tolerance},
+};
+
+}  // namespace talus::table

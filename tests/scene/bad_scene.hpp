@@ -1,0 +1,23 @@
+#pragma once
+
+#include "scene/sample.hpp"
+
+#include <string>
+#include <vector>
+
+namespace talus::sample {
+
+/// The good scene with one thing wrong, and what must be said about it.
+struct BadScene {
+  const char* requirement;
+  const char* old_text;  ///< of the good scene
+  const char* new_text;
+  const char* pointer;
+  std::size_t line, column;
+  std::vector<const char*> words;
+};
+
+/// Checks place, pointer and words of a mistake found in `text`.
+void check(const Mistake& mistake, const BadScene& bad, const std::string& text);
+
+}  // namespace talus::sample

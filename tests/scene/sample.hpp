@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/read.hpp"
+
+#include <string>
+
+namespace talus::sample {
+
+/// Descriptors of two laws, a material and two covers, as libraries would bring them. Nothing is made from
+/// them.
+Registry registry();
+
+/// A scene that passes: a block on a fixed ramp.
+extern const char* const good;
+
+/// `good` with the only occurrence of `old_text` replaced.
+std::string good_but(const std::string& old_text, const std::string& new_text);
+
+Scene read(const std::string& text, const ReadOptions& options = {});
+
+/// The mistakes of a scene; empty if it passes.
+std::vector<Mistake> mistakes(const std::string& text, const ReadOptions& options = {});
+
+}  // namespace talus::sample
