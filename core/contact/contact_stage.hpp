@@ -1,0 +1,78 @@
+#pragma once
+
+#include "contact/neighbours.hpp"
+#include "model/model.hpp"
+#include "model/motion.hpp"
+#include "plugin/registry.hpp"
+#include "scene/scene.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// What all contacts of a step add up to, J/m and m.
+struct ContactTotals {
+  double stored = 0, slip_loss = 0, damping_loss = 0;
+  double penetration = 0;
+  std::uint32_t deepest_a = 0, deepest_b = 0;  ///< bodies of the deepest overlap
+};
+
+/// Which bodies may touch, the law's history of each contact, and the forces of a step (Table 1).
+class ContactStage {
+ public:
+  ContactStage(const Scene& scene, const Model& model, int threads, bool neighbour_skin);
+
+  const ContactModel* law() const { return law_.get(); }
+  const Interfaces& interfaces() const { return interfaces_; }
+
+  /// Seeks the candidates anew when something may have moved through the skin since the last search.
+  /// `travelled` is how far the fastest corner can have moved since the last call, m.
+  void find_pairs(const Model& model, const MotionState& motion, double travelled);
+
+  struct Conditions {
+    double dt;  ///< s, from t_{n-1} to t_n
+    bool hold_stick, bonds_form;
+  };
+  /// Evaluates the law on all pairs and adds the loads to the bodies' forces.
+  ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
+
+  std::uint64_t searches() const { return searches_; }
+  std::span<const BodyPair> pairs() const { return pairs_; }
+  std::span<const ContactReport> reports() const { return reports_; }
+  std::span<const double> history() const { return history_; }
+
+ private:
+  void rebuild_pairs(const Model& model);
+  void lay_out_slots(std::span<const std::uint32_t> capacities);
+  bool make_room();
+  void call_law(const Model& model, const MotionState& motion, const Conditions& conditions);
+  ContactTotals gather(const Model& model, MotionState& motion);
+  double master_share(std::uint32_t a, std::uint32_t b) const;
+
+  std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
+  std::vector<double> interface_values_;
+  Interfaces interfaces_{};
+  std::vector<double> priority_;  ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;       ///< [body]
+  int threads_;
+  double skin_;
+  double slack_ = -1;  ///< m left before the next search; negative: search at once
+  std::uint64_t searches_ = 0;
+  std::uint32_t history_doubles_ = 0;
+
+  NeighbourSearch search_;
+  std::vector<Candidate> candidates_;
+  std::vector<BodyPair> pairs_, old_pairs_;
+  std::vector<PiecePair> piece_pairs_;
+  std::vector<double> damping_power_, old_damping_power_;  ///< [pair] J/m of the last step
+  std::vector<std::uint32_t> capacities_;
+  std::vector<double> history_, next_history_;
+  std::vector<ContactReport> reports_;
+  std::vector<PairReport> pair_reports_;
+  std::vector<double> load_x_, load_y_;
+};
+
+}  // namespace talus

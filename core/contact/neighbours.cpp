@@ -1,0 +1,95 @@
+#include "contact/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// A piece wider than this many cells is tested against every other instead of filling the grid.
+constexpr double large_in_cells = 4;
+
+}  // namespace
+
+NeighbourSearch::NeighbourSearch(const Model& model) : boxes_(model.piece_body.size()) {
+  origin_ = model.bodies.empty() ? Vec2{} : model.bodies[0].centre;
+  std::vector<double> sizes;
+  for (std::size_t p = 0; p < model.piece_body.size(); ++p) {
+    if (!model.moves(model.piece_body[p])) continue;
+    double squared = 0;
+    for (std::uint32_t c = model.piece_start[p]; c < model.piece_start[p + 1]; ++c) {
+      const double dx = model.reference_x[c] - model.reference_x[model.piece_start[p]];
+      const double dy = model.reference_y[c] - model.reference_y[model.piece_start[p]];
+      squared = std::max(squared, dx * dx + dy * dy);
+    }
+    sizes.push_back(std::sqrt(squared));
+  }
+  if (sizes.empty()) return;
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  cell_ = 1.5 * sizes[sizes.size() / 2];
+}
+
+void NeighbourSearch::measure_boxes(const Model& model, const MotionState& motion, double skin) {
+  for (std::size_t p = 0; p < boxes_.size(); ++p) {
+    const Vec2 centre = model.bodies[model.piece_body[p]].centre;
+    const double offset_x = centre.x - origin_.x, offset_y = centre.y - origin_.y;
+    Box box{INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (std::uint32_t c = model.piece_start[p]; c < model.piece_start[p + 1]; ++c) {
+      box.low_x = std::min(box.low_x, motion.x[c]);
+      box.low_y = std::min(box.low_y, motion.y[c]);
+      box.high_x = std::max(box.high_x, motion.x[c]);
+      box.high_y = std::max(box.high_y, motion.y[c]);
+    }
+    boxes_[p] = {box.low_x + offset_x - skin / 2, box.low_y + offset_y - skin / 2,
+                 box.high_x + offset_x + skin / 2, box.high_y + offset_y + skin / 2};
+  }
+}
+
+void NeighbourSearch::fill_grid() {
+  grid_.clear();
+  large_.clear();
+  const auto cell_of = [&](double value) { return static_cast<std::int64_t>(std::floor(value / cell_)); };
+  for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
+    const Box& box = boxes_[p];
+    if (std::max(box.high_x - box.low_x, box.high_y - box.low_y) > large_in_cells * cell_) {
+      large_.push_back(p);
+      continue;
+    }
+    for (std::int64_t i = cell_of(box.low_x); i <= cell_of(box.high_x); ++i) {
+      for (std::int64_t j = cell_of(box.low_y); j <= cell_of(box.high_y); ++j) grid_.push_back({i, j, p});
+    }
+  }
+  std::sort(grid_.begin(), grid_.end());
+}
+
+void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,
+                            std::vector<Candidate>& candidates) const {
+  const Box &a = boxes_[p], &b = boxes_[q];
+  if (a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y) return;
+  const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
+  if (body_p == body_q || (!model.moves(body_p) && !model.moves(body_q))) return;
+  candidates.push_back(body_p < body_q ? Candidate{body_p, body_q, p, q} : Candidate{body_q, body_p, q, p});
+}
+
+void NeighbourSearch::find(const Model& model, const MotionState& motion, double skin,
+                           std::vector<Candidate>& candidates) {
+  candidates.clear();
+  measure_boxes(model, motion, skin);
+  fill_grid();
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    for (std::size_t j = i + 1; j < grid_.size(); ++j) {
+      if (grid_[j].cell_x != grid_[i].cell_x || grid_[j].cell_y != grid_[i].cell_y) break;
+      offer(model, grid_[i].piece, grid_[j].piece, candidates);
+    }
+  }
+  for (std::size_t i = 0; i < large_.size(); ++i) {
+    for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
+      const bool both_large = std::binary_search(large_.begin(), large_.end(), p);
+      if (!both_large || p > large_[i]) offer(model, large_[i], p, candidates);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+}
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "model/model.hpp"
+#include "model/motion.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <vector>
+
+namespace talus {
+
+/// Two pieces of different bodies whose boxes come within the skin of each other; body a < body b.
+struct Candidate {
+  std::uint32_t body_a, body_b, piece_a, piece_b;
+  auto operator<=>(const Candidate&) const = default;
+};
+
+/// Finds candidates in O(N): a uniform grid for the common pieces, a list for the few that are much larger.
+class NeighbourSearch {
+ public:
+  explicit NeighbourSearch(const Model& model);
+
+  /// All candidates with boxes grown by `skin`/2 each, sorted. The vector is reused.
+  void find(const Model& model, const MotionState& motion, double skin, std::vector<Candidate>& candidates);
+
+ private:
+  struct Box {
+    double low_x, low_y, high_x, high_y;
+  };
+  struct CellEntry {
+    std::int64_t cell_x, cell_y;
+    std::uint32_t piece;
+    auto operator<=>(const CellEntry&) const = default;
+  };
+
+  void measure_boxes(const Model& model, const MotionState& motion, double skin);
+  void fill_grid();
+  void offer(const Model& model, std::uint32_t p, std::uint32_t q, std::vector<Candidate>& candidates) const;
+
+  double cell_ = 1;  ///< m, edge of a grid cell
+  Vec2 origin_;      ///< all centres are taken relative to this, so that far coordinates cost nothing
+  std::vector<Box> boxes_;
+  std::vector<CellEntry> grid_;
+  std::vector<std::uint32_t> large_;
+};
+
+}  // namespace talus

@@ -1,0 +1,159 @@
+#include "geometry/convex_pieces.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace talus {
+namespace {
+
+/// A connected region: ring 0 is its outer boundary, the others are holes.
+using Region = std::vector<ConvexPiece>;
+
+Vec2 direction(Vec2 from, Vec2 to) {
+  const double dx = to.x - from.x, dy = to.y - from.y, size = std::sqrt(dx * dx + dy * dy);
+  return {dx / size, dy / size};
+}
+
+double cross(Vec2 p, Vec2 q) {
+  return p.x * q.y - p.y * q.x;
+}
+
+std::size_t next(const ConvexPiece& ring, std::size_t i) {
+  return i + 1 == ring.size() ? 0 : i + 1;
+}
+std::size_t previous(const ConvexPiece& ring, std::size_t i) {
+  return i == 0 ? ring.size() - 1 : i - 1;
+}
+
+struct Place {
+  std::size_t ring, corner;
+};
+
+std::optional<Place> reflex_corner(const Region& region) {
+  for (std::size_t r = 0; r < region.size(); ++r) {
+    const ConvexPiece& ring = region[r];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 in = direction(ring[previous(ring, i)].at, ring[i].at);
+      const Vec2 out = direction(ring[i].at, ring[next(ring, i)].at);
+      const bool spike = in.x * out.x + in.y * out.y < -1 + 1e-12;
+      if (cross(in, out) < -1e-12 || (spike && cross(in, out) <= 0)) return Place{r, i};
+    }
+  }
+  return std::nullopt;
+}
+
+Vec2 inner_bisector(const ConvexPiece& ring, std::size_t i) {
+  const Vec2 in = direction(ring[previous(ring, i)].at, ring[i].at);
+  const Vec2 out = direction(ring[i].at, ring[next(ring, i)].at);
+  const Vec2 sum{-in.y - out.y, in.x + out.x};
+  const double size = std::sqrt(sum.x * sum.x + sum.y * sum.y);
+  return size > 1e-9 ? Vec2{sum.x / size, sum.y / size} : in;
+}
+
+/// First boundary ahead of a corner; splits the side it hits unless the hit is at one of its ends.
+Place cut_target(Region& region, Place from, Vec2 along) {
+  const Vec2 start = region[from.ring][from.corner].at;
+  double nearest = std::numeric_limits<double>::infinity(), share = 0;
+  std::optional<Place> hit;
+  for (std::size_t r = 0; r < region.size(); ++r) {
+    const ConvexPiece& ring = region[r];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t end = next(ring, i);
+      if (r == from.ring && (i == from.corner || end == from.corner)) continue;
+      const Vec2 side{ring[end].at.x - ring[i].at.x, ring[end].at.y - ring[i].at.y};
+      const double facing = cross(side, along);
+      if (!(facing < 0)) continue;
+      const Vec2 away{ring[i].at.x - start.x, ring[i].at.y - start.y};
+      const double distance = cross(away, side) / cross(along, side);
+      const double position = cross(away, along) / cross(along, side);
+      if (position < -1e-9 || position > 1 + 1e-9 || !(distance > 0) || distance >= nearest) continue;
+      nearest = distance;
+      share = position;
+      hit = Place{r, i};
+    }
+  }
+  if (!hit) throw std::runtime_error("a cut from a reflex vertex found no boundary ahead");
+  ConvexPiece& ring = region[hit->ring];
+  if (share < 1e-9) return *hit;
+  if (share > 1 - 1e-9) return {hit->ring, next(ring, hit->corner)};
+  PieceCorner corner = ring[hit->corner];
+  const Vec2 end = ring[next(ring, hit->corner)].at;
+  corner.at = {corner.at.x + share * (end.x - corner.at.x), corner.at.y + share * (end.y - corner.at.y)};
+  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(hit->corner) + 1, corner);
+  return {hit->ring, hit->corner + 1};
+}
+
+/// Corners from `first` round to `last`, then back along the cut.
+ConvexPiece part(const ConvexPiece& ring, std::size_t first, std::size_t last, std::uint32_t cut) {
+  ConvexPiece result;
+  for (std::size_t i = first; i != last; i = next(ring, i)) result.push_back(ring[i]);
+  result.push_back({ring[last].at, internal_side, cut});
+  return result;
+}
+
+bool inside(const ConvexPiece& ring, Vec2 p) {
+  bool odd = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a = ring[i].at, b = ring[next(ring, i)].at;
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+  }
+  return odd;
+}
+
+/// A cut to another ring joins the two rings; a cut to the own ring divides the region.
+void divide(Region region, std::uint32_t& cuts, std::vector<ConvexPiece>& pieces) {
+  while (const std::optional<Place> corner = reflex_corner(region)) {
+    Place from = *corner;
+    const Vec2 along = inner_bisector(region[from.ring], from.corner);
+    const std::size_t before = region[from.ring].size();
+    const Place to = cut_target(region, from, along);
+    if (to.ring == from.ring && region[from.ring].size() > before && to.corner <= from.corner) ++from.corner;
+    const std::uint32_t cut = cuts++;
+    if (to.ring != from.ring) {
+      ConvexPiece joined = part(region[from.ring], next(region[from.ring], from.corner), from.corner, cut);
+      const ConvexPiece other = part(region[to.ring], next(region[to.ring], to.corner), to.corner, cut);
+      joined.insert(joined.begin(), region[from.ring][from.corner]);
+      joined.push_back(region[to.ring][to.corner]);
+      joined.insert(joined.end(), other.begin(), other.end());
+      const auto [low, high] = std::minmax(from.ring, to.ring);
+      region[low] = joined;
+      region.erase(region.begin() + static_cast<std::ptrdiff_t>(high));
+      continue;
+    }
+    const ConvexPiece ring = region[from.ring];
+    Region halves[2] = {{part(ring, from.corner, to.corner, cut)}, {part(ring, to.corner, from.corner, cut)}};
+    for (std::size_t r = 0; r < region.size(); ++r) {
+      if (r == from.ring) continue;
+      halves[inside(halves[0][0], region[r][0].at) ? 0 : 1].push_back(region[r]);
+    }
+    divide(halves[0], cuts, pieces);
+    divide(halves[1], cuts, pieces);
+    return;
+  }
+  pieces.push_back(region[0]);
+}
+
+ConvexPiece ring_of(const Loop& loop) {
+  ConvexPiece ring;
+  for (std::size_t i = 0; i < loop.vertices.size(); ++i)
+    ring.push_back({loop.vertices[i], loop.surface_class[i], 0});
+  return ring;
+}
+
+}  // namespace
+
+std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes) {
+  Region region{ring_of(outer)};
+  for (const Loop& hole : holes) region.push_back(ring_of(hole));
+  std::vector<ConvexPiece> pieces;
+  std::uint32_t cuts = 0;
+  divide(std::move(region), cuts, pieces);
+  return pieces;
+}
+
+}  // namespace talus

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// A side of a convex piece: from `at` to the next corner.
+struct PieceCorner {
+  Vec2 at;
+  std::uint32_t surface;  ///< surface class, or internal_side along a cut
+  std::uint32_t cut;      ///< number of the cut, for internal sides
+};
+
+using ConvexPiece = std::vector<PieceCorner>;  ///< counter-clockwise
+
+/// Cuts a body into convex pieces along the inner bisectors of its reflex vertices, so that the distance to
+/// the nearest side is continuous across each cut near its vertex. A convex body is its own only piece.
+/// Throws std::runtime_error when a cut finds no boundary, which a valid polygon does not show.
+std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes);
+
+}  // namespace talus

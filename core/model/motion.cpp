@@ -1,0 +1,81 @@
+#include "model/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+
+MotionState::MotionState(const Model& model)
+    : bodies(model.bodies.size()),
+      forces(model.bodies.size()),
+      x(model.reference_x),
+      y(model.reference_y),
+      vx(x.size(), 0.0),
+      vy(x.size(), 0.0) {
+#ifdef TALUS_AUDIT
+  for (std::vector<double>* buffer : {&x, &y, &vx, &vy}) {
+    std::fill(buffer->begin(), buffer->end(), std::numeric_limits<double>::quiet_NaN());
+  }
+#endif
+}
+
+Vec2 displacement(const Motion2& m, Vec2 p) {
+  return {m.u.x + m.h.xx * p.x + m.h.xy * p.y, m.u.y + m.h.yx * p.x + m.h.yy * p.y};
+}
+
+Vec2 velocity(const Motion2& m, Vec2 p) {
+  return {m.velocity.x + m.rate.xx * p.x + m.rate.xy * p.y, m.velocity.y + m.rate.yx * p.x + m.rate.yy * p.y};
+}
+
+void MotionState::move_boundary(const Model& model) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    const Motion2& motion = bodies[i];
+    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+      const Vec2 reference{model.reference_x[c], model.reference_y[c]};
+      const Vec2 moved = displacement(motion, reference), speed = velocity(motion, reference);
+      x[c] = reference.x + moved.x;
+      y[c] = reference.y + moved.y;
+      vx[c] = speed.x;
+      vy[c] = speed.y;
+    }
+  }
+}
+
+MotionState::Speeds MotionState::speeds() const {
+  if (vx.empty()) return {};
+  double squared = 0, sum = 0;
+  double low_x = vx[0], high_x = vx[0], low_y = vy[0], high_y = vy[0];
+  for (std::size_t c = 0; c < vx.size(); ++c) {
+    const double here = vx[c] * vx[c] + vy[c] * vy[c];
+    squared = std::max(squared, here);
+    sum += here;
+    low_x = std::min(low_x, vx[c]);
+    high_x = std::max(high_x, vx[c]);
+    low_y = std::min(low_y, vy[c]);
+    high_y = std::max(high_y, vy[c]);
+  }
+  if (!std::isfinite(sum)) return {std::numeric_limits<double>::quiet_NaN(), 0};
+  const double dx = high_x - low_x, dy = high_y - low_y;
+  return {std::sqrt(squared), std::sqrt(dx * dx + dy * dy)};
+}
+
+double torque(const Motion2& m, const BodyForce& f) {
+  const Matrix2& q = f.moment;
+  return (1 + m.h.xx) * q.yx + m.h.xy * q.yy - m.h.yx * q.xx - (1 + m.h.yy) * q.xy;
+}
+
+Matrix2 turned(const Matrix2& h, double angle) {
+  const double a2 = angle * angle;
+  const double sine = angle * (1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42)));
+  const double cosine = 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30));
+  const double c = 1 + h.xx, s = h.yx;
+  double turned_c = cosine * c - sine * s, turned_s = sine * c + cosine * s;
+  const double size = std::sqrt(turned_c * turned_c + turned_s * turned_s);
+  turned_c /= size;
+  turned_s /= size;
+  return {turned_c - 1, -turned_s, turned_s, turned_c - 1};
+}
+
+}  // namespace talus

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "model/model.hpp"
+
+#include <vector>
+
+namespace talus {
+
+/// Where every body is and how it moves: x = X + u + H X, X relative to the body's centroid at the start, x
+/// too. Velocities are those of the half step, so that x_n − x_{n−1} = v Δt (Eq. 22).
+struct Motion2 {
+  Vec2 u;           ///< m
+  Matrix2 h;        ///< displacement gradient; R − I of a rigid body
+  Vec2 velocity;    ///< m/s
+  Matrix2 rate;     ///< 1/s
+  double spin = 0;  ///< rad/s, of a rigid body
+};
+
+/// Generalised forces of a body: ΣF and ΣF ⊗ X, per metre of thickness.
+struct BodyForce {
+  Vec2 force;      ///< N/m
+  Matrix2 moment;  ///< N, F_i X_J
+
+  void add(Vec2 at_reference, Vec2 load) {
+    force.x += load.x;
+    force.y += load.y;
+    moment.xx += load.x * at_reference.x;
+    moment.xy += load.x * at_reference.y;
+    moment.yx += load.y * at_reference.x;
+    moment.yy += load.y * at_reference.y;
+  }
+};
+
+/// State of all bodies at t_n and the corners of their pieces.
+struct MotionState {
+  explicit MotionState(const Model& model);
+
+  std::vector<Motion2> bodies;
+  std::vector<BodyForce> forces;
+  std::vector<double> x, y, vx, vy;  ///< [corner] in the frame of the body, m, m/s
+
+  /// Corners follow their bodies (Eq. 11).
+  void move_boundary(const Model& model);
+
+  struct Speeds {
+    double largest = 0;   ///< m/s, of a corner; NaN if any is
+    double relative = 0;  ///< m/s, bound of the difference between any two corners
+  };
+  Speeds speeds() const;
+};
+
+Vec2 displacement(const Motion2& motion, Vec2 reference);
+Vec2 velocity(const Motion2& motion, Vec2 reference);
+
+/// ΣF r × F of a body force about the displaced centroid, N.
+double torque(const Motion2& motion, const BodyForce& force);
+
+/// Turns H = R − I by an angle, without trigonometry in the step: series to the seventh order, then
+/// normalised.
+Matrix2 turned(const Matrix2& h, double angle);
+
+}  // namespace talus

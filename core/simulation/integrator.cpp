@@ -1,0 +1,153 @@
+#include "simulation/integrator.hpp"
+
+namespace talus {
+namespace {
+
+/// tr(P ρJ Qᵀ): the deformation part of the mass as an inner product of two rates.
+double product(const AreaMoments& m, double density, const Matrix2& p, const Matrix2& q) {
+  const double first = p.xx * (m.xx * q.xx + m.xy * q.xy) + p.xy * (m.xy * q.xx + m.yy * q.xy);
+  const double second = p.yx * (m.xx * q.yx + m.xy * q.yy) + p.yy * (m.xy * q.yx + m.yy * q.yy);
+  return density * (first + second);
+}
+
+/// Rate of H under a spin of 1 rad/s about the centroid, in the present shape: W F.
+Matrix2 unit_spin(const Matrix2& h) {
+  return {-h.yx, -(1 + h.yy), 1 + h.xx, h.xy};
+}
+
+void add(Matrix2& to, double factor, const Matrix2& what) {
+  to.xx += factor * what.xx;
+  to.xy += factor * what.xy;
+  to.yx += factor * what.yx;
+  to.yy += factor * what.yy;
+}
+
+struct Update {
+  double keep, gain;  ///< v₊ = keep v₋ + gain a, mass-proportional damping taken at mid-step
+};
+
+void accelerate_freely(const Body& body, const BodyForce& force, const StepConditions& conditions,
+                       Update update, Motion2& motion) {
+  motion.velocity.x =
+      update.keep * motion.velocity.x + update.gain * (force.force.x / body.mass + conditions.gravity.x);
+  motion.velocity.y =
+      update.keep * motion.velocity.y + update.gain * (force.force.y / body.mass + conditions.gravity.y);
+  if (body.kinematics == Kinematics::rigid) {
+    motion.spin = update.keep * motion.spin + update.gain * torque(motion, force) / body.inertia;
+    return;
+  }
+  const Matrix2 &q = force.moment, &inverse = body.inverse_moment;
+  const double xx = q.xx * inverse.xx + q.xy * inverse.yx, xy = q.xx * inverse.xy + q.xy * inverse.yy;
+  const double yx = q.yx * inverse.xx + q.yy * inverse.yx, yy = q.yx * inverse.xy + q.yy * inverse.yy;
+  motion.rate.xx = update.keep * motion.rate.xx + update.gain * xx;
+  motion.rate.xy = update.keep * motion.rate.xy + update.gain * xy;
+  motion.rate.yx = update.keep * motion.rate.yx + update.gain * yx;
+  motion.rate.yy = update.keep * motion.rate.yy + update.gain * yy;
+}
+
+/// Puts the prescribed parts of the motion in place and books the work of the reactions. Moving the centroid
+/// and turning about it are orthogonal in the mass, so taking one out leaves the others as they are.
+void impose_supports(const Body& body, double density, const Support& support,
+                     const StepConditions& conditions, const Motion2& before, Motion2& after,
+                     AccelerationWork& work) {
+  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
+  const auto impose = [&](const std::optional<double>& wanted, double mass, double value,
+                          double value_before) {
+    const double target = conditions.supports_driven ? *wanted : 0;
+    const double reaction = mass * (target - value) / dt;
+    work.external_work += reaction * value_before * conditions.dt_behind / 2;
+    work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
+    return target;
+  };
+  if (support.x) after.velocity.x = impose(support.x, body.mass, after.velocity.x, before.velocity.x);
+  if (support.y) after.velocity.y = impose(support.y, body.mass, after.velocity.y, before.velocity.y);
+  if (!support.rotation) return;
+  if (body.kinematics == Kinematics::rigid) {
+    after.spin = impose(support.rotation, body.inertia, after.spin, before.spin);
+    return;
+  }
+  const Matrix2 spin = unit_spin(after.h);
+  const double inertia = product(body.moments, density, spin, spin);
+  const double turning = product(body.moments, density, after.rate, spin) / inertia;
+  const double turning_before = product(body.moments, density, before.rate, spin) / inertia;
+  add(after.rate, impose(support.rotation, inertia, turning, turning_before) - turning, spin);
+}
+
+/// Velocity at t_n between those of the half steps behind and ahead; ½(v₋ + v₊) for equal steps.
+Motion2 velocity_at_step(const Motion2& p, const Motion2& q, const StepConditions& conditions) {
+  const double share = conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);
+  const auto between = [&](double before, double after) { return before + share * (after - before); };
+  Motion2 result = q;
+  result.velocity = {between(p.velocity.x, q.velocity.x), between(p.velocity.y, q.velocity.y)};
+  result.spin = between(p.spin, q.spin);
+  result.rate = {between(p.rate.xx, q.rate.xx), between(p.rate.xy, q.rate.xy), between(p.rate.yx, q.rate.yx),
+                 between(p.rate.yy, q.rate.yy)};
+  return result;
+}
+
+}  // namespace
+
+double kinetic_energy(const Body& body, double density, const Motion2& p, const Motion2& q) {
+  const double translation = body.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
+  const double rest = body.kinematics == Kinematics::rigid ? body.inertia * p.spin * q.spin
+                                                           : product(body.moments, density, p.rate, q.rate);
+  return (translation + rest) / 2;
+}
+
+AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
+                            const StepConditions& conditions, MotionState& motion,
+                            std::vector<Motion2>& at_time) {
+  AccelerationWork work;
+  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
+  const double half_damping = conditions.damping * dt / 2;
+  const Update update{(1 - half_damping) / (1 + half_damping), dt / (1 + half_damping)};
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    if (body.kinematics == Kinematics::fixed) continue;
+    const double density = body.mass / body.moments.area;
+    Motion2& now = motion.bodies[i];
+    const Motion2 before = now;
+    accelerate_freely(body, motion.forces[i], conditions, update, now);
+    impose_supports(body, density, scene[i].support, conditions, before, now, work);
+    Motion2& at_step = at_time[i];
+    at_step = velocity_at_step(before, now, conditions);
+    if (body.kinematics == Kinematics::rigid) at_step.rate = spin_rate(at_step);
+    work.kinetic += kinetic_energy(body, density, before, now);
+    work.external_work +=
+        body.mass * conditions.dt_behind *
+        (conditions.gravity.x * before.velocity.x + conditions.gravity.y * before.velocity.y);
+    if (conditions.damping > 0) {
+      const double power = 2 * conditions.damping * kinetic_energy(body, density, at_step, at_step);
+      work.damping_loss += power * conditions.dt_behind / 2;
+      work.damping_loss_ahead += power * conditions.dt_ahead / 2;
+    }
+  }
+  return work;
+}
+
+Matrix2 spin_rate(const Motion2& motion) {
+  const Matrix2 spin = unit_spin(motion.h);
+  return {motion.spin * spin.xx, motion.spin * spin.xy, motion.spin * spin.yx, motion.spin * spin.yy};
+}
+
+void move(const Model& model, double dt, MotionState& motion) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
+    Motion2& body = motion.bodies[i];
+    body.u.x += dt * body.velocity.x;
+    body.u.y += dt * body.velocity.y;
+    if (model.bodies[i].kinematics == Kinematics::rigid) {
+      const Matrix2 next = turned(body.h, dt * body.spin);
+      body.rate = {(next.xx - body.h.xx) / dt, (next.xy - body.h.xy) / dt, (next.yx - body.h.yx) / dt,
+                   (next.yy - body.h.yy) / dt};
+      body.h = next;
+      continue;
+    }
+    body.h.xx += dt * body.rate.xx;
+    body.h.xy += dt * body.rate.xy;
+    body.h.yx += dt * body.rate.yx;
+    body.h.yy += dt * body.rate.yy;
+  }
+}
+
+}  // namespace talus

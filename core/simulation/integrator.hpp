@@ -1,0 +1,41 @@
+#pragma once
+
+#include "model/model.hpp"
+#include "model/motion.hpp"
+#include "scene/scene.hpp"
+
+#include <span>
+
+namespace talus {
+
+/// What happened to the energies at one velocity update, J/m. With K_n = ½ v₋ᵀ M v₊ a force f_n works over
+/// half of the step behind and half of the step ahead; the latter belongs to the ledger of t_{n+1}.
+struct AccelerationWork {
+  double kinetic = 0;                                 ///< K_n
+  double damping_loss = 0, damping_loss_ahead = 0;    ///< by mass-proportional damping
+  double external_work = 0, external_work_ahead = 0;  ///< by gravity and driven supports
+};
+
+struct StepConditions {
+  Vec2 gravity;
+  double damping;              ///< 1/s, mass-proportional
+  double dt_behind, dt_ahead;  ///< s; the velocity is updated over their mean (Eq. 23)
+  bool supports_driven;        ///< false: driven supports stand still (settling)
+};
+
+/// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. `at_time` receives the motion of each body
+/// with its velocity at t_n.
+AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
+                            const StepConditions& conditions, MotionState& motion,
+                            std::vector<Motion2>& at_time);
+
+/// Rate of H of a rigid body that spins.
+Matrix2 spin_rate(const Motion2& motion);
+
+/// d_{n+1} = d_n + Δt v₊ (Eq. 22).
+void move(const Model& model, double dt, MotionState& motion);
+
+/// Kinetic energy of a body with velocities p before and q after, ½ pᵀ M q, J/m.
+double kinetic_energy(const Body& body, double density, const Motion2& p, const Motion2& q);
+
+}  // namespace talus

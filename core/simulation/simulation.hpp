@@ -1,0 +1,109 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Numerical trouble that stops a run: what, which bodies, where, when, and what to change.
+class NumericalTrouble : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct RunSettings {
+  int threads = 1;
+  bool neighbour_skin = true;  ///< off: candidate pairs are sought anew every step, for checking
+  double largest_dt = 0;       ///< s, cap on the automatic step; 0 for none
+};
+
+/// Energies per metre of thickness, J/m, since t = 0.
+struct EnergyLedger {
+  double kinetic = 0;  ///< ½ v₋ᵀ M v₊
+  double strain = 0;
+  double contact = 0;  ///< stored in contact springs
+  double friction_loss = 0, contact_damping_loss = 0, global_damping_loss = 0, material_loss = 0;
+  double external_work = 0;  ///< gravity, loads, prescribed motion
+  double residual = 0;       ///< what the sum above misses
+  double throughput = 0;     ///< the largest energy in circulation so far; the residual is judged against it
+};
+
+/// Motion of a body or of a material point at t_n; velocity is ½(v₋ + v₊). Displacement since t = 0.
+struct Motion {
+  Vec2 position;  ///< m, without the scene's origin
+  Vec2 displacement, velocity;
+  double rotation;                         ///< rad since t = 0, counter-clockwise
+  double stress_xx, stress_yy, stress_xy;  ///< Pa, Cauchy, area mean of the body; 0 for rigid bodies
+};
+
+/// A contact at t_n, positions without the scene's origin.
+struct Contact {
+  std::uint32_t body_a, body_b;
+  Vec2 point, normal_force, tangential_force;  ///< m, N/m on body b
+  double penetration;
+  bool slipping;
+};
+
+struct RunSummary {
+  std::uint64_t steps = 0, settle_steps = 0;
+  std::uint64_t pair_searches = 0;
+  double dt = 0;                   ///< s, the largest step taken
+  std::string dt_limiter;          ///< who limited it, in words
+  double critical_dt = 0;          ///< s, bound of the scene
+  double largest_penetration = 0;  ///< m
+  std::string largest_penetration_pair;
+  double largest_residual_share = 0;  ///< of the throughput
+  std::vector<std::string> warnings;
+};
+
+/// Displacements and the like of every body, to start another run from the same settled geometry.
+struct Geometry {
+  std::vector<double> unknowns;
+};
+
+/// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const RunSettings& settings);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  const Scene& scene() const;
+
+  /// Starts from the geometry another run settled into; before settle().
+  void take_geometry(const Geometry& geometry);
+  Geometry geometry() const;
+
+  /// The settle stage, if the scene asks for one; friction held stuck, then velocities and clock to zero.
+  void settle();
+
+  /// Runs to the next output time (the first call: to t = 0). False when the end was reached before.
+  /// `interrupted`, polled once per step, ends the call early with true. Throws NumericalTrouble.
+  bool advance(const bool* interrupted = nullptr);
+
+  double time() const;             ///< s
+  bool history_due() const;        ///< whether the present output time is one of the history
+  bool frame_due() const;          ///< whether it is one of the frames
+  double critical_dt() const;      ///< s, bound over strain modes and contacts
+  std::string state_hash() const;  ///< of displacements, velocities and contact history
+
+  std::size_t body_count() const;
+  std::size_t block_count() const;  ///< bodies with unknowns
+  Motion body_motion(std::size_t body) const;
+  Motion point_motion(std::size_t body, Vec2 point_at_start) const;
+  std::vector<std::vector<Vec2>> outline(std::size_t body) const;  ///< loops of the body as deformed
+  std::vector<Contact> contacts() const;
+  const EnergyLedger& ledger() const;
+  const RunSummary& summary() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace talus

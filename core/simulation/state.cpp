@@ -1,0 +1,217 @@
+#include "simulation/state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+constexpr double speed_share = 0.1;     ///< of the smallest width, that two bodies may approach in a step
+constexpr double warn_residual = 0.01;  ///< of the energy throughput
+constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
+
+/// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
+constexpr double initial_overlap = 1e-6;
+
+}  // namespace
+
+Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
+    : scene(scene_in),
+      settings(settings_in),
+      model(build_model(scene)),
+      motion(model),
+      contacts(scene, model, settings.threads, settings.neighbour_skin),
+      deformation(scene, model),
+      loads(scene, model),
+      critical(critical_step(scene, model, contacts)),
+      at_time(model.bodies.size()),
+      start(model.bodies.size()),
+      rotation(model.bodies.size(), 0.0),
+      last_turn(model.bodies.size()) {
+  summary.critical_dt = critical.dt;
+  summary.warnings = scene.warnings;
+}
+
+/// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
+void Simulation::State::step(double next_end) {
+  move(model, plan.dt, motion);  // Eq. 22
+  dt_behind = plan.dt;
+  ++plan.done;
+  ++(settling ? summary.settle_steps : summary.steps);
+  time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
+  if (plan.done == plan.steps) {
+    make_plan(next_end);
+  } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
+    make_plan(plan.end);
+  }
+  forces();
+  check_step();
+  if (!settling) remember_deepest();
+}
+
+void Simulation::State::begin(double end) {
+  dt_behind = 0;
+  make_plan(end);
+  forces();
+  check_step();
+}
+
+/// The right-hand side of Eq. 16 and the velocity update.
+void Simulation::State::forces() {
+  for (BodyForce& force : motion.forces) force = {};
+  motion.move_boundary(model);  // Eq. 11
+  speeds = motion.speeds();
+  contacts.find_pairs(model, motion, dt_behind * speeds.largest);                               // Table 1, 1
+  contact_totals = contacts.evaluate(model, motion, {dt_behind, settling, fresh || settling});  // Eqs. 28–48
+  strain_energy = deformation.apply(model, motion, dt_behind);                                  // Eq. 18
+  loads.apply(motion, settling ? 0 : time, dt_behind);  // Eqs. 19–20
+  const double damping = settling ? std::max(scene.settle->damping, scene.damping) : scene.damping;
+  const AccelerationWork work =
+      accelerate(model, scene.bodies, {scene.gravity, damping, dt_behind, plan.dt, !settling}, motion,
+                 at_time);  // Eqs. 23–24
+  ledger.book(contact_totals, strain_energy, loads, work);
+  fresh = false;
+}
+
+double Simulation::State::nominal_dt() const {
+  if (scene.time.dt) return *scene.time.dt;
+  const double dt = scene.time.safety * critical.dt;
+  return settings.largest_dt > 0 ? std::min(dt, settings.largest_dt) : dt;
+}
+
+/// v_rel Δt ≤ 0.1 h.
+double Simulation::State::allowed_dt() const {
+  return speeds.relative > 0 ? speed_share * model.smallest_width / speeds.relative
+                             : std::numeric_limits<double>::infinity();
+}
+
+void Simulation::State::make_plan(double end) {
+  if (!(end > time)) {  // nowhere left to go: the velocity at the end looks ahead by the step it came with
+    plan = {time, time, plan.dt, 1, 0};
+    return;
+  }
+  double dt = nominal_dt();
+  if (!scene.time.dt && allowed_dt() < dt) {
+    dt = allowed_dt();
+    summary.dt_limiter =
+        "speed: no two bodies may approach by more than a tenth of the smallest width in a step";
+  } else {
+    summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : critical.limiter;
+  }
+  const double span = end - time;
+  const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - 1e-12))));
+  plan = {time, end, span / static_cast<double>(steps), steps, 0};
+  summary.dt = std::max(summary.dt, plan.dt);
+}
+
+std::string Simulation::State::place(std::uint32_t body) const {
+  const Vec2 centre = model.bodies[body].centre;
+  const Vec2 u = motion.bodies[body].u;
+  return fmt::format("'{}' at ({:.6g}, {:.6g}) m", scene.bodies[body].name, scene.origin.x + centre.x + u.x,
+                     scene.origin.y + centre.y + u.y);
+}
+
+void Simulation::State::remember_deepest() {
+  if (contact_totals.penetration <= summary.largest_penetration) return;
+  summary.largest_penetration = contact_totals.penetration;
+  deepest_pair = {contact_totals.deepest_a, contact_totals.deepest_b};
+}
+
+void Simulation::State::check_step() const {
+  if (!std::isfinite(speeds.largest)) {
+    throw NumericalTrouble(
+        fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
+                    "take a smaller time step",
+                    time, plan.dt, critical.dt));
+  }
+  if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
+    throw NumericalTrouble(
+        fmt::format("the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
+                    "m/s, {:.3g} m in a step of "
+                    "{:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; set /time/dt below {:.3g} "
+                    "or to \"auto\"",
+                    time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
+                    model.smallest_width, allowed_dt()));
+  }
+  const ContactTotals& totals = contact_totals;
+  if (totals.penetration == 0) return;
+  const double width = std::min(model.bodies[totals.deepest_a].width, model.bodies[totals.deepest_b].width);
+  if (!(totals.penetration <= scene.limits.penetration * width)) {
+    throw NumericalTrouble(
+        fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.0f} % "
+                    "of the smaller width "
+                    "{:.3g} m; raise normal_stiffness of their interface, take a smaller time step, or part "
+                    "them at the start",
+                    time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration,
+                    100 * scene.limits.penetration, width));
+  }
+}
+
+void Simulation::State::check_balance() {
+  if (summary.largest_penetration > 0) {
+    summary.largest_penetration_pair = fmt::format("'{}' and '{}'", scene.bodies[deepest_pair.first].name,
+                                                   scene.bodies[deepest_pair.second].name);
+  }
+  const double share = ledger.residual_share();
+  if (share > summary.largest_residual_share) {
+    if (share > warn_residual && summary.largest_residual_share <= warn_residual) {
+      summary.warnings.push_back(fmt::format(
+          "the energy balance misses {:.2g} % of the throughput at t = {:.6g} s", 100 * share, time));
+    }
+    summary.largest_residual_share = share;
+  }
+  if (share <= scene.limits.energy_residual) return;
+  const std::string deepest =
+      contact_totals.penetration > 0
+          ? fmt::format("; deepest contact {:.3g} m between {} and {}", contact_totals.penetration,
+                        place(contact_totals.deepest_a), place(contact_totals.deepest_b))
+          : "";
+  throw NumericalTrouble(
+      fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
+                  "throughput {:.3g} J/m, the "
+                  "limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the critical {:.3g} s ({}): take a "
+                  "smaller one, or damp the "
+                  "contacts",
+                  time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
+                  100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
+                  critical.limiter));
+}
+
+void Simulation::State::warn_of_initial_overlap() {
+  const ContactTotals& totals = contact_totals;
+  if (scene.settle || totals.penetration == 0) return;
+  const double width = std::min(model.bodies[totals.deepest_a].width, model.bodies[totals.deepest_b].width);
+  if (totals.penetration <= initial_overlap * width) return;
+  summary.warnings.push_back(fmt::format(
+      "{} and {} overlap by {:.3g} m at the start and will be thrown apart; part them or add a settle stage",
+      place(totals.deepest_a), place(totals.deepest_b), totals.penetration));
+}
+
+/// Follows each body through full turns: the angle since the last output time is small.
+void Simulation::State::bring_rotation_up_to_date() {
+  for (std::size_t i = 0; i < rotation.size(); ++i) {
+    const Matrix2 &now = motion.bodies[i].h, &last = last_turn[i];
+    // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.
+    const double c = 2 + now.xx + now.yy, s = now.yx - now.xy;
+    const double c0 = 2 + last.xx + last.yy, s0 = last.yx - last.xy;
+    rotation[i] += std::atan2(s * c0 - c * s0, c * c0 + s * s0);
+    last_turn[i] = now;
+  }
+}
+
+void Simulation::State::set_initial_velocities() {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    Motion2& body = motion.bodies[i];
+    const SceneBody& given = scene.bodies[i];
+    body.velocity = {given.support.x.value_or(given.velocity.x), given.support.y.value_or(given.velocity.y)};
+    body.spin = given.support.rotation.value_or(given.angular_velocity);
+    if (!model.moves(static_cast<std::uint32_t>(i))) body.velocity = {}, body.spin = 0;
+    body.rate = spin_rate(body);
+    if (model.bodies[i].kinematics != Kinematics::rigid) body.spin = 0;
+  }
+}
+
+}  // namespace talus
