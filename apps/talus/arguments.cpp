@@ -1,0 +1,78 @@
+#include "arguments.hpp"
+
+#include "scene/nearest.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace talus {
+
+namespace po = boost::program_options;
+
+namespace {
+
+void print_help(const Usage& usage) {
+  std::ostringstream options;
+  options << usage.options;
+  fmt::print("Usage: talus {} {}\n\n{}\n\n{}", usage.command, usage.synopsis, usage.sentence, options.str());
+  if (!usage.examples.empty()) fmt::print("\nExamples:\n{}", usage.examples);
+}
+
+std::vector<std::string> option_names(const po::options_description& options) {
+  std::vector<std::string> names{"--help"};
+  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
+  return names;
+}
+
+}  // namespace
+
+std::optional<po::variables_map> read_arguments(const Usage& usage, const std::vector<std::string>& words) {
+  po::options_description all;
+  all.add(usage.options);
+  all.add_options()("help,h", "");
+  po::positional_options_description positional;
+  if (!usage.argument.empty()) {
+    all.add_options()(usage.argument.c_str(), po::value<std::string>());
+    positional.add(usage.argument.c_str(), 1);
+  }
+  const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::variables_map given;
+  try {
+    po::store(po::command_line_parser(words).options(all).positional(positional).style(style).run(), given);
+    po::notify(given);
+  } catch (const po::unknown_option& problem) {
+    const std::string name = problem.get_option_name();
+    throw UsageError(usage.command,
+                     fmt::format("unknown option '{}'{}", name, guess(name, option_names(usage.options))));
+  } catch (const po::too_many_positional_options_error&) {
+    throw UsageError(usage.command, usage.argument.empty()
+                                        ? std::string("it takes options only")
+                                        : fmt::format("it takes one {} only", usage.argument));
+  } catch (const po::error& problem) {
+    throw UsageError(usage.command, problem.what());
+  }
+  if (given.count("help") != 0) {
+    print_help(usage);
+    return std::nullopt;
+  }
+  if (!usage.argument.empty() && given.count(usage.argument) == 0) {
+    throw UsageError(usage.command, fmt::format("{} is missing", usage.argument));
+  }
+  return given;
+}
+
+std::string guess(const std::string& word, const std::vector<std::string>& names) {
+  const std::string name = nearest(word, names);
+  return name.empty() ? "" : fmt::format(": did you mean '{}'?", name);
+}
+
+std::string text_option(const po::variables_map& given, const std::string& name) {
+  return given.count(name) == 0 ? "" : given[name].as<std::string>();
+}
+
+std::vector<std::string> list_option(const po::variables_map& given, const std::string& name) {
+  return given.count(name) == 0 ? std::vector<std::string>{} : given[name].as<std::vector<std::string>>();
+}
+
+}  // namespace talus

@@ -1,0 +1,140 @@
+#include "compare/comparison.hpp"
+
+#include "commands.hpp"
+#include "compare/report.hpp"
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+#include "output/hash.hpp"
+#include "output/input_error.hpp"
+#include "output/output_folder.hpp"
+#include "output/whole_file.hpp"
+#include "progress.hpp"
+#include "scene_options.hpp"
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <thread>
+
+namespace talus {
+
+namespace {
+
+namespace po = boost::program_options;
+
+Usage make_usage() {
+  Usage usage{
+      "compare", "SCENE --vary /pointer=a,b[,c] [options]",
+      "Runs a scene once per value of --vary, side by side, from the same settled geometry and at the same "
+      "time\n"
+      "step (unless /time is what varies), and measures how the monitors part: from the first value, the "
+      "baseline,\n"
+      "and from a reference. Writes compare.csv, compare.json and a folder for each run to a folder:\n"
+      "out/<scene name>-compare unless --out says otherwise.",
+      "SCENE",
+      "  talus compare scenes/incline.json --vary /contact/model=overlap_area,vertex_edge --at 2.95\n"
+      "  talus compare scenes/collision.json --vary /time/dt=1e-4,5e-5,2.5e-5 --out out/order\n"
+      "  talus compare scenes/incline.json --vary /contact/model=overlap_area --reference curve.csv\n"};
+  usage.options.add_options()("vary", po::value<std::string>()->value_name("/pointer=a,b"),
+                              "what varies; the first value is the baseline")(
+      "reference", po::value<std::string>()->value_name("FILE.csv"),
+      "curves to compare with as well: 't [s]' and columns named as in history.csv")(
+      "at", po::value<std::vector<double>>()->value_name("T"),
+      "tell the deviations at this time too, s; may be given several times")(
+      "out", po::value<std::string>()->value_name("DIR"),
+      "folder for the results (default: out/<scene name>-compare)")(
+      "overwrite", "replace results that the folder holds already")(
+      "threads", po::value<int>()->value_name("N"),
+      "runs at a time, one thread each (default: one per core)");
+  add_scene_options(usage);
+  usage.options.add_options()("quiet,q", "no progress")(
+      "no-skin", "seek contact candidates anew at every step: slow, for checking; the bits stay the same");
+  return usage;
+}
+
+/// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
+void read_scenes(const Usage& usage, const po::variables_map& given, const std::filesystem::path& file,
+                 std::deque<Registry>& registries, ComparisonOrder& order) {
+  std::set<std::string> warnings;
+  for (const std::string& value : order.variation.values) {
+    std::vector<Override> overrides = order.overrides;
+    overrides.push_back({order.variation.pointer, value});
+    Registry& registry = registries.emplace_back(load_registry(usage, given));
+    order.scenes.push_back(read_scene_of(file, registry, overrides, given.count("allow-plugins") != 0));
+    for (const std::string& warning : order.scenes.back().warnings) {
+      if (warnings.insert(warning).second) print_warning(warning);
+    }
+  }
+}
+
+int code_of(const Comparison& comparison) {
+  const auto any = [&](RunEnd end) {
+    return std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                       [end](const ComparedRun& run) { return run.result.end == end; });
+  };
+  if (any(RunEnd::interrupted)) return exit_code::interrupted;
+  if (any(RunEnd::stopped)) return exit_code::numerical_trouble;
+  return comparison.tolerances_held() ? exit_code::ok : exit_code::tolerance_broken;
+}
+
+void print_troubles(const Comparison& comparison, const std::filesystem::path& folder) {
+  for (const std::string& warning : comparison.warnings) print_warning(warning);
+  for (const ComparedRun& run : comparison.runs) {
+    for (const std::string& warning : run.result.summary.warnings) print_warning(run.value + ": " + warning);
+    if (run.result.end == RunEnd::stopped) print_error(run.value + ": " + run.result.trouble);
+    if (run.result.end == RunEnd::interrupted) {
+      fmt::print(stderr, "{}: interrupted at t = {:.6g} s; results so far are in {}\n", run.value,
+                 run.result.time, folder.string());
+    }
+  }
+}
+
+}  // namespace
+
+int compare_command(const Words& words) {
+  const Usage usage = make_usage();
+  const auto given = read_arguments(usage, words);
+  if (!given) return exit_code::ok;
+  if (given->count("vary") == 0) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
+  const std::filesystem::path file = text_option(*given, "SCENE");
+
+  ComparisonOrder order;
+  order.variation = parse_variation(text_option(*given, "vary"));
+  order.overrides = overrides_of(usage, *given);
+  order.threads =
+      threads_of(usage, *given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  order.neighbour_skin = given->count("no-skin") == 0;
+  if (given->count("at") != 0) order.moments = (*given)["at"].as<std::vector<double>>();
+  const std::string out = text_option(*given, "out");
+  order.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-compare")
+                             : std::filesystem::path(out);
+  std::deque<Registry> registries;
+  read_scenes(usage, *given, file, registries, order);
+  order.scene_hash = hash_of_file(file);
+  if (const std::string reference = text_option(*given, "reference"); !reference.empty()) {
+    order.reference = ReferenceFile{reference, hash_of_file(reference), read_series(reference)};
+  }
+  check_order(order);
+  const bool overwrite = given->count("overwrite") != 0;
+  prepare_output_folder(order.folder, overwrite);
+  for (const std::string& value : order.variation.values) {
+    prepare_output_folder(order.folder / folder_of_value(value), overwrite);
+  }
+
+  order.interrupted = watch_for_interrupts();
+  Progress progress(given->count("quiet") != 0);
+  order.progress = [&](double share) { progress.show(share, fmt::format("{} runs", order.scenes.size())); };
+  const Comparison comparison = compare(order);
+  progress.clear();
+
+  write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
+  write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
+  print_troubles(comparison, order.folder);
+  fmt::print("{}\nresults in {}\n", comparison_table(order, comparison), order.folder.string());
+  return code_of(comparison);
+}
+
+}  // namespace talus

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace talus {
+
+/// From now on Ctrl-C and SIGTERM raise the returned flag; a second one ends the program at once.
+const bool* watch_for_interrupts();
+
+}  // namespace talus

@@ -1,0 +1,68 @@
+#include "progress.hpp"
+
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace talus {
+
+namespace {
+
+std::string left_text(double share, double elapsed) {
+  return share > 0 ? clock_text(elapsed * (1 - share) / share) : std::string("-:--");
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : style_(quiet ? Style::none : (stderr_is_terminal() ? Style::bar : Style::lines)) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::show(double share, const std::string& words) {
+  const Clock::time_point now = Clock::now();
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  share = std::clamp(share, 0.0, 1.0);
+  if (style_ == Style::lines) print_line(share, words, elapsed);
+  if (style_ != Style::bar || (drawn_ && now - last_drawn_ < std::chrono::milliseconds(200))) return;
+  last_drawn_ = now;
+  draw_bar(share, words, elapsed);
+}
+
+void Progress::clear() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+void Progress::draw_bar(double share, const std::string& words, double elapsed) {
+  constexpr int width = 30;
+  const int filled = static_cast<int>(share * width);
+  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {} left\033[K", "", filled, "", width - filled,
+             std::floor(100 * share), words, left_text(share, elapsed));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void Progress::print_line(double share, const std::string& words, double elapsed) {
+  const int tenths = static_cast<int>(std::floor(share * 10 + 1e-9));
+  if (tenths <= tenths_) return;
+  tenths_ = tenths;
+  fmt::print(stderr, "{} %  {}  {} passed, {} left\n", tenths * 10, words, clock_text(elapsed),
+             left_text(share, elapsed));
+}
+
+std::string clock_text(double seconds) {
+  const long whole = std::lround(std::min(seconds, 1e9));
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+}  // namespace talus

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace talus {
+
+/// How far a run is, on stderr: one line with a bar and the time left on a terminal, redrawn at most five
+/// times per second; elsewhere a plain line at every 10 %.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `share` of the work is done; `words` say where it is.
+  void show(double share, const std::string& words);
+
+  /// Removes the bar, so that other lines can follow.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw_bar(double share, const std::string& words, double elapsed);
+  void print_line(double share, const std::string& words, double elapsed);
+
+  enum class Style { none, bar, lines } style_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_drawn_{};
+  bool drawn_ = false;
+  int tenths_ = 0;  ///< last tenth that was printed
+};
+
+/// "0:07", "1:02:03".
+std::string clock_text(double seconds);
+
+}  // namespace talus

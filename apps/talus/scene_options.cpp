@@ -1,0 +1,83 @@
+#include "scene_options.hpp"
+
+#include "output/whole_file.hpp"
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace talus {
+
+namespace po = boost::program_options;
+
+void add_plugin_path(Usage& usage) {
+  usage.options.add_options()("plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
+                              "look for plugins here first; may be given several times");
+}
+
+void add_scene_options(Usage& usage) {
+  usage.options.add_options()(
+      "set", po::value<std::vector<std::string>>()->value_name("/pointer=value"),
+      "override a value of the scene before it is validated; may be given several times");
+  add_plugin_path(usage);
+  usage.options.add_options()("allow-plugins",
+                              "load the libraries that the scene names by path: they run with your rights");
+}
+
+Registry load_registry(const Usage& usage, const po::variables_map& given) {
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& folder : list_option(given, "plugin-path")) {
+    if (!std::filesystem::is_directory(folder)) {
+      throw UsageError(usage.command, fmt::format("--plugin-path {}: there is no such folder", folder));
+    }
+    folders.emplace_back(folder);
+  }
+  Registry registry;
+  load_folders(registry, search_path(folders));
+  return registry;
+}
+
+std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& given) {
+  std::vector<Override> overrides;
+  for (const std::string& text : list_option(given, "set")) {
+    const std::size_t equals = text.find('=');
+    if (!text.starts_with('/') || equals == std::string::npos) {
+      throw UsageError(usage.command, fmt::format("--set {}: write it as --set /pointer=value", text));
+    }
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+int threads_of(const Usage& usage, const po::variables_map& given, int fallback) {
+  if (given.count("threads") == 0) return fallback;
+  const int threads = given["threads"].as<int>();
+  if (threads < 1 || threads > 1024) {
+    throw UsageError(usage.command, fmt::format("--threads {}: allowed are 1 to 1024", threads));
+  }
+  return threads;
+}
+
+std::vector<std::string> named_libraries(const std::filesystem::path& scene_file) {
+  const auto json = nlohmann::json::parse(read_whole_file(scene_file), nullptr, false, true);
+  std::vector<std::string> names;
+  if (!json.is_object() || !json.contains("plugins") || !json["plugins"].is_array()) return names;
+  for (const auto& entry : json["plugins"]) {
+    if (entry.is_string()) names.push_back(entry.get<std::string>());
+  }
+  return names;
+}
+
+Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
+                    const std::vector<Override>& overrides, bool allow_plugins) {
+  try {
+    return read_scene(file, registry, {overrides, allow_plugins});
+  } catch (const SceneError&) {
+    for (const RefusedLibrary& refused : registry.refused) {
+      print_warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
+    }
+    throw;
+  }
+}
+
+}  // namespace talus

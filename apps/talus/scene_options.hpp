@@ -1,0 +1,31 @@
+#pragma once
+
+#include "arguments.hpp"
+#include "scene/read.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace talus {
+
+/// --set, --plugin-path and --allow-plugins, which all commands that read a scene share.
+void add_scene_options(Usage& usage);
+void add_plugin_path(Usage& usage);
+
+/// The registry of all libraries on the search path.
+Registry load_registry(const Usage& usage, const boost::program_options::variables_map& given);
+
+/// The overrides of --set.
+std::vector<Override> overrides_of(const Usage& usage, const boost::program_options::variables_map& given);
+
+/// --threads; `fallback` if it is not given.
+int threads_of(const Usage& usage, const boost::program_options::variables_map& given, int fallback);
+
+/// Libraries that a scene file names by path, as far as it can be read at all.
+std::vector<std::string> named_libraries(const std::filesystem::path& scene_file);
+
+/// Reads the scene. Warns of libraries that were refused when a mistake may come from them.
+Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
+                    const std::vector<Override>& overrides, bool allow_plugins);
+
+}  // namespace talus

@@ -1,0 +1,120 @@
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "output/history.hpp"
+#include "output/run_record.hpp"
+#include "scene/nearest.hpp"
+#include "scene_options.hpp"
+#include "simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace talus {
+
+namespace {
+
+Usage make_usage() {
+  Usage usage{
+      "validate", "SCENE [options]",
+      "Says all mistakes of a scene with file, line and column; or, if there is none, what the scene is.",
+      "SCENE",
+      "  talus validate scenes/incline.json\n"
+      "  talus validate scenes/incline.json --set /contact/model=vertex_edge\n"};
+  add_scene_options(usage);
+  return usage;
+}
+
+void print_row(const std::string& label, const std::string& words) {
+  fmt::print("  {:<10} {}\n", label, words);
+}
+
+std::string bodies_text(const Scene& scene) {
+  std::map<std::string, int> covers;
+  int fixed = 0;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.fixed) {
+      ++fixed;
+    } else if (body.cover.component != nullptr) {
+      ++covers[body.cover.component->component->name];
+    }
+  }
+  std::string text = fmt::format("{}", scene.bodies.size());
+  if (fixed > 0) text += fmt::format(", {} fixed", fixed);
+  for (const auto& [name, count] : covers) text += fmt::format(", {} with cover {}", count, name);
+  return text;
+}
+
+std::string materials_text(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SceneMaterial& material : scene.materials) {
+    const RegisteredComponent* model = material.model.component;
+    names.push_back(model == nullptr ? material.name
+                                     : fmt::format("{} ({})", material.name, model->component->name));
+  }
+  return listed(names);
+}
+
+void print_time(const Scene& scene, const Simulation& simulation) {
+  const double critical = simulation.critical_dt();
+  const double dt = scene.time.dt.value_or(scene.time.safety * critical);
+  const std::string& limiter = simulation.summary().dt_limiter;
+  print_row("time",
+            fmt::format("to {:.6g} s, step {:.6g} s ({}): {:.3g} of critical, {:.6g} s", scene.time.end, dt,
+                        scene.time.dt ? "as given" : "automatic", dt / critical, critical));
+  if (!limiter.empty()) print_row("limited by", limiter);
+  const double steps = std::ceil(scene.time.end / dt);
+  if (std::isfinite(steps)) print_row("steps", fmt::format("about {:.0f}", std::max(steps, 1.0)));
+  if (scene.settle) {
+    print_row("settle",
+              fmt::format("{:.6g} s with damping {:.6g} 1/s", scene.settle->duration, scene.settle->damping));
+  }
+}
+
+void print_scene(const Scene& scene, const Simulation& simulation,
+                 const std::vector<std::string>& libraries) {
+  fmt::print("{}: no mistake\n", scene.file);
+  if (!scene.title.empty()) print_row("title", scene.title);
+  print_row("bodies", bodies_text(scene));
+  print_row("materials", materials_text(scene));
+  print_row("contact",
+            scene.contact.component == nullptr ? "none" : scene.contact.component->component->name);
+  print_time(scene, simulation);
+  print_row("output",
+            fmt::format("history every {:.6g} s, {}", scene.output.history,
+                        scene.output.frames ? fmt::format("frames every {:.6g} s", *scene.output.frames)
+                                            : std::string("no frames")));
+  print_row("monitors", listed(monitor_columns(scene)));
+  for (const UsedLibrary& used : used_libraries(scene)) {
+    print_row("plugin", fmt::format("{} from {}", listed(used.components), used.file.string()));
+  }
+  print_row("libraries", libraries.empty() ? "it names none by path"
+                                           : fmt::format("it names {}: loaded, as --allow-plugins says",
+                                                         listed(libraries)));
+  for (const std::string& warning : scene.warnings) print_row("warning", warning);
+  for (const std::string& warning : simulation.summary().warnings) print_row("warning", warning);
+}
+
+}  // namespace
+
+int validate_command(const Words& words) {
+  const Usage usage = make_usage();
+  const auto given = read_arguments(usage, words);
+  if (!given) return exit_code::ok;
+  const std::filesystem::path file = text_option(*given, "SCENE");
+  const bool allow_plugins = given->count("allow-plugins") != 0;
+  const std::vector<std::string> libraries = named_libraries(file);
+  if (!libraries.empty() && !allow_plugins) {
+    fmt::print(
+        "{} names libraries by path: {}\nThey run with your rights; they load only with --allow-plugins.\n",
+        file.string(), listed(libraries));
+  }
+  Registry registry = load_registry(usage, *given);
+  const Scene scene = read_scene_of(file, registry, overrides_of(usage, *given), allow_plugins);
+  print_scene(scene, Simulation(scene, RunSettings{}), libraries);
+  return exit_code::ok;
+}
+
+}  // namespace talus

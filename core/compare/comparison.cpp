@@ -1,0 +1,243 @@
+#include "compare/comparison.hpp"
+
+#include "output/history.hpp"
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <thread>
+
+namespace talus {
+
+namespace {
+
+/// Positions of all vertices, body by body, loop by loop.
+std::vector<Vec2> vertices_of(const Simulation& simulation) {
+  std::vector<Vec2> positions;
+  const Scene& scene = simulation.scene();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto add_loop = [&](const Loop& loop) {
+      for (const Vec2 vertex : loop.vertices)
+        positions.push_back(simulation.point_motion(i, vertex).position);
+    };
+    add_loop(scene.bodies[i].outer);
+    for (const Loop& hole : scene.bodies[i].holes) add_loop(hole);
+  }
+  return positions;
+}
+
+std::optional<double> largest_distance(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  if (a.size() != b.size()) return std::nullopt;
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y));
+  return largest;
+}
+
+/// The runs of a comparison, made by a few workers. The baseline settles first and hands its geometry on.
+class SideBySide {
+ public:
+  SideBySide(const ComparisonOrder& order, Comparison& comparison)
+      : order_(order),
+        comparison_(comparison),
+        settled_(order.scenes.size()),
+        shares_(order.scenes.size(), 0.0),
+        problems_(order.scenes.size()) {}
+
+  void run() {
+    const std::size_t workers =
+        std::min<std::size_t>(static_cast<std::size_t>(std::max(order_.threads, 1)), order_.scenes.size());
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t i = 0; i < workers; ++i) {
+        threads.emplace_back([this] { work(); });
+      }
+    }
+    for (const std::exception_ptr& problem : problems_) {
+      if (problem) std::rethrow_exception(problem);
+    }
+    for (std::size_t i = 0; i < order_.scenes.size(); ++i) {
+      comparison_.runs[i].settled_difference = largest_distance(settled_[0], settled_[i]);
+    }
+    std::sort(comparison_.warnings.begin(), comparison_.warnings.end());
+  }
+
+ private:
+  void work() {
+    for (std::size_t i = next_++; i < order_.scenes.size(); i = next_++) {
+      try {
+        make_run(i);
+      } catch (...) {
+        problems_[i] = std::current_exception();
+      }
+      // A baseline that never came to settle leaves the others without its geometry, not waiting for it.
+      if (i == 0 && !handed_on_) hand_on({});
+    }
+  }
+
+  void hand_on(Geometry geometry) {
+    handed_on_ = true;
+    baseline_geometry_.set_value(std::move(geometry));
+  }
+
+  void make_run(std::size_t i) {
+    RunOrder run;
+    run.folder = order_.folder / folder_of_value(order_.variation.values[i]);
+    run.overrides = order_.overrides;
+    run.overrides.push_back({order_.variation.pointer, order_.variation.values[i]});
+    run.scene_hash = order_.scene_hash;
+    run.settings.neighbour_skin = order_.neighbour_skin;
+    run.settings.largest_dt = comparison_.common_dt.value_or(0);
+    run.clock = CpuClock::thread;
+    run.interrupted = order_.interrupted;
+    run.before_settling = [&](Simulation& simulation) { start_like_baseline(i, simulation); };
+    run.after_settling = [&](Simulation& simulation) {
+      settled_[i] = vertices_of(simulation);
+      if (i == 0) hand_on(simulation.geometry());
+    };
+    const double end = order_.scenes[i].time.end;
+    run.progress = [&, i, end](double time) { tell_progress(i, time / end); };
+    Simulation simulation(order_.scenes[i], run.settings);
+    comparison_.runs[i].result = record_run(simulation, run);
+    tell_progress(i, 1);
+  }
+
+  void start_like_baseline(std::size_t i, Simulation& simulation) {
+    if (i == 0 || !order_.scenes[i].settle || !order_.scenes[0].settle) return;
+    const Geometry& geometry = geometry_.get();
+    if (geometry.unknowns.size() == simulation.geometry().unknowns.size()) {
+      simulation.take_geometry(geometry);
+      return;
+    }
+    const std::lock_guard lock(mutex_);
+    comparison_.warnings.push_back(fmt::format(
+        "'{}' settled by itself: it has {} unknowns, the baseline has {}", order_.variation.values[i],
+        simulation.geometry().unknowns.size(), geometry.unknowns.size()));
+  }
+
+  void tell_progress(std::size_t i, double share) {
+    const std::lock_guard lock(mutex_);
+    shares_[i] = share;
+    double sum = 0;
+    for (const double each : shares_) sum += each;
+    if (order_.progress) order_.progress(sum / static_cast<double>(shares_.size()));
+  }
+
+  const ComparisonOrder& order_;
+  Comparison& comparison_;
+  std::vector<std::vector<Vec2>> settled_;  ///< [run][vertex]
+  std::vector<double> shares_;              ///< [run] of the simulated time
+  std::vector<std::exception_ptr> problems_;
+  std::atomic<std::size_t> next_ = 0;
+  bool handed_on_ = false;  ///< touched by the worker of the baseline only
+  std::promise<Geometry> baseline_geometry_;
+  std::shared_future<Geometry> geometry_ = baseline_geometry_.get_future().share();
+  std::mutex mutex_;
+};
+
+/// The automatic step of each scene; the smallest is the common one.
+void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
+  double smallest = 0;
+  for (std::size_t i = 0; i < order.scenes.size(); ++i) {
+    const Simulation simulation(order.scenes[i], RunSettings{});
+    const double own = order.scenes[i].time.safety * simulation.critical_dt();
+    comparison.runs[i].own_dt = own;
+    smallest = i == 0 ? own : std::min(smallest, own);
+  }
+  if (!order.variation.of_time()) comparison.common_dt = smallest;
+}
+
+/// Column "<monitor>.<quantity> [unit]" of a tolerance, whatever the unit.
+bool is_column_of(const std::string& column, const Tolerance& tolerance) {
+  return column.starts_with(tolerance.monitor + "." + tolerance.quantity + " [");
+}
+
+void add_deviations(const ComparisonOrder& order, Comparison& comparison, std::size_t run,
+                    const Series& other, bool from_reference) {
+  const Series& history = comparison.runs[run].result.history;
+  for (std::size_t column = 0; column < history.names.size(); ++column) {
+    const auto other_column = other.column(history.names[column]);
+    if (!other_column) continue;
+    const auto found = deviation(history, column, other, *other_column);
+    if (!found) continue;
+    ColumnDeviation& entry = comparison.deviations.emplace_back(
+        ColumnDeviation{history.names[column], run, from_reference, *found, {}});
+    for (const double moment : order.moments) {
+      entry.at_moments.push_back(deviation_at(history, column, other, *other_column, moment));
+    }
+  }
+}
+
+}  // namespace
+
+void check_order(const ComparisonOrder& order) {
+  if (order.scenes.size() < 2 && !order.reference) {
+    throw InputError("a comparison needs two values to --vary, or one and a --reference");
+  }
+  const std::vector<std::string> columns = monitor_columns(order.scenes[0]);
+  if (columns.empty()) throw InputError("the scene has no monitors, so there is nothing to compare");
+  if (!order.reference) return;
+  const std::vector<std::string>& names = order.reference->series.names;
+  for (const std::string& column : columns) {
+    if (std::find(names.begin(), names.end(), column) != names.end()) return;
+  }
+  throw InputError(fmt::format("{}: none of its columns is one of the scene's: it has '{}', the scene '{}'",
+                               order.reference->file, fmt::join(names, "', '"), fmt::join(columns, "', '")));
+}
+
+bool Comparison::tolerances_held() const {
+  for (const ComparedTolerance& each : tolerances) {
+    for (const ToleranceCheck& found : each.checks) {
+      if (!found.held) return false;
+    }
+  }
+  return true;
+}
+
+void evaluate(const ComparisonOrder& order, Comparison& comparison) {
+  for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
+    if (run > 0) add_deviations(order, comparison, run, comparison.runs[0].result.history, false);
+    if (order.reference) add_deviations(order, comparison, run, order.reference->series, true);
+  }
+  for (const Tolerance& tolerance : order.scenes[0].tolerances) {
+    if (tolerance.against_reference && !order.reference) {
+      comparison.warnings.push_back(
+          fmt::format("the tolerance of {}.{} against a reference was not checked: give --reference",
+                      tolerance.monitor, tolerance.quantity));
+      continue;
+    }
+    for (std::size_t run = tolerance.against_reference ? 0 : 1; run < comparison.runs.size(); ++run) {
+      ComparedTolerance& entry = comparison.tolerances.emplace_back(ComparedTolerance{tolerance, run, {}});
+      for (const ColumnDeviation& each : comparison.deviations) {
+        if (each.run == run && each.from_reference == tolerance.against_reference &&
+            is_column_of(each.column, tolerance)) {
+          entry.checks = check(tolerance, each.deviation);
+        }
+      }
+      if (entry.checks.empty()) {
+        comparison.warnings.push_back(
+            fmt::format("the tolerance of {}.{} was not checked for '{}': nothing to compare with",
+                        tolerance.monitor, tolerance.quantity, comparison.runs[run].value));
+      }
+    }
+  }
+}
+
+Comparison compare(const ComparisonOrder& order) {
+  check_order(order);
+  Comparison comparison;
+  comparison.runs.resize(order.scenes.size());
+  for (std::size_t i = 0; i < order.scenes.size(); ++i) comparison.runs[i].value = order.variation.values[i];
+  vote_dt(order, comparison);
+  SideBySide(order, comparison).run();
+  evaluate(order, comparison);
+  return comparison;
+}
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "output/series.hpp"
+#include "scene/scene.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// How one curve parts from another, at its own times as far as the other one reaches. Signed: this minus
+/// the other.
+struct Deviation {
+  double largest = 0;       ///< the one of largest magnitude
+  double largest_time = 0;  ///< s
+  double rms = 0;           ///< over the compared times
+  double final = 0;         ///< at the last compared time
+  double final_time = 0;    ///< s
+  std::size_t times = 0;    ///< how many were compared
+};
+
+/// Of `column` in `series` from `other_column` in `other`, which is interpolated linearly. Nothing if no time
+/// is common to both.
+std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
+                                   std::size_t other_column);
+
+/// The same at one time, both interpolated.
+std::optional<double> deviation_at(const Series& series, std::size_t column, const Series& other,
+                                   std::size_t other_column, double time);
+
+/// One limit of a tolerance, held or broken.
+struct ToleranceCheck {
+  std::string measure;  ///< "largest", "rms" or "final"
+  double allowed, found;
+  bool held;
+};
+
+/// One check for each limit that the tolerance states. A deviation that is no number breaks it.
+std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation);
+
+}  // namespace talus

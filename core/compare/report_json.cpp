@@ -1,0 +1,138 @@
+#include "compare/report.hpp"
+#include "output/run_record.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json run_json(const ComparedRun& run, const ComparedRun& baseline) {
+  const RunResult& result = run.result;
+  const CostRatio ratio = cost_ratio(run, baseline);
+  Json json;
+  json["value"] = run.value;
+  json["folder"] = folder_of_value(run.value);
+  json["end"] = name_of(result.end);
+  if (result.end == RunEnd::stopped) json["trouble"] = result.trouble;
+  json["t [s]"] = result.time;
+  json["steps"] = result.summary.steps;
+  json["dt [s]"] = result.summary.dt;
+  json["dt_limiter"] = result.summary.dt_limiter;
+  json["own_dt [s]"] = run.own_dt;
+  json["own_steps"] = ratio.own_steps;
+  json["cpu [s]"] = result.stepping.cpu;
+  json["settling cpu [s]"] = result.settling.cpu;
+  json["cost_at_equal_dt"] = ratio.at_equal_dt;
+  json["cost_at_own_dt"] = ratio.at_own_dt;
+  json["largest_penetration [m]"] = result.summary.largest_penetration;
+  json["largest_residual_share"] = result.summary.largest_residual_share;
+  json["ledger_residual [J/m]"] = result.ledger.residual;
+  json["settled_difference [m]"] = optional_json(run.settled_difference);
+  json["state_hash"] = result.state_hash;
+  return json;
+}
+
+Json deviation_json(const ColumnDeviation& entry, const std::vector<double>& moments) {
+  Json json{{"largest", entry.deviation.largest},
+            {"largest_at [s]", entry.deviation.largest_time},
+            {"rms", entry.deviation.rms},
+            {"final", entry.deviation.final},
+            {"final_at [s]", entry.deviation.final_time},
+            {"times", entry.deviation.times}};
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    json["at"][fmt::format("{}", moments[i])] = optional_json(entry.at_moments[i]);
+  }
+  return json;
+}
+
+Json tolerances_json(const Comparison& comparison) {
+  Json list = Json::array();
+  for (const ComparedTolerance& each : comparison.tolerances) {
+    for (const ToleranceCheck& found : each.checks) {
+      list.push_back({{"column", fmt::format("{}.{}", each.tolerance.monitor, each.tolerance.quantity)},
+                      {"run", comparison.runs[each.run].value},
+                      {"against", each.tolerance.against_reference ? "reference" : "baseline"},
+                      {"measure", found.measure},
+                      {"allowed", found.allowed},
+                      {"found", found.found},
+                      {"verdict", found.held ? "held" : "broken"}});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
+  const auto own_steps = [](const ComparedRun& each) {
+    const RunSummary& summary = each.result.summary;
+    return std::ceil(static_cast<double>(summary.steps) * summary.dt / each.own_dt);
+  };
+  const auto per_step = [](const ComparedRun& each) {
+    return each.result.stepping.cpu / static_cast<double>(each.result.summary.steps);
+  };
+  return {per_step(run) / per_step(baseline),
+          per_step(run) * own_steps(run) / (per_step(baseline) * own_steps(baseline)), own_steps(run)};
+}
+
+std::string comparison_json(const ComparisonOrder& order, const Comparison& comparison) {
+  Json json;
+  json["talus"] = TALUS_VERSION;
+  json["scene"] = {
+      {"file", order.scenes[0].file}, {"title", order.scenes[0].title}, {"xxh3_128", order.scene_hash}};
+  json["varied"] = order.variation.pointer;
+  json["baseline"] = order.variation.values[0];
+  json["common_dt [s]"] = optional_json(comparison.common_dt);
+  if (order.reference)
+    json["reference"] = {{"file", order.reference->file}, {"xxh3_128", order.reference->hash}};
+  json["meaning"] = {
+      {"deviation", "run minus baseline, or run minus reference (linear between its rows, within its range)"},
+      {"cost_at_equal_dt", "CPU seconds per step, over the baseline's; settling and writing not counted"},
+      {"cost_at_own_dt",
+       "CPU seconds per step times the steps needed at own_dt, over the baseline's: computed, not run"},
+      {"own_dt", "the automatic time step of the run by itself, at its start"},
+      {"settled_difference", "largest distance of a vertex from where it is in the baseline, at t = 0"}};
+  json["runs"] = Json::array();
+  for (const ComparedRun& run : comparison.runs) json["runs"].push_back(run_json(run, comparison.runs[0]));
+  json["deviations"] = Json::object();
+  for (const ColumnDeviation& entry : comparison.deviations) {
+    json["deviations"][entry.column][comparison.runs[entry.run].value]
+        [entry.from_reference ? "from_reference" : "from_baseline"] = deviation_json(entry, order.moments);
+  }
+  json["tolerances"] = tolerances_json(comparison);
+  json["tolerances_held"] = comparison.tolerances_held();
+  json["warnings"] = comparison.warnings;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+  std::vector<std::string> fields{"t [s]"};
+  for (const ComparedRun& run : comparison.runs) {
+    for (const std::string& name : run.result.history.names) fields.push_back(run.value + "/" + name);
+  }
+  std::string text = csv_line(fields) + "\n";
+  for (const double time : comparison.runs[0].result.history.time) {
+    text += fmt::format("{}", time);
+    for (const ComparedRun& run : comparison.runs) {
+      for (const std::vector<double>& values : run.result.history.values) {
+        const auto value = interpolate(run.result.history.time, values, time);
+        text += value ? fmt::format(",{}", *value) : ",";
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,66 @@
+#include "compare/variation.hpp"
+
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace talus {
+
+namespace {
+
+std::vector<std::string> split_values(std::string_view text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char letter = text[i];
+    if (letter == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
+    if (!quoted && (letter == '[' || letter == '{')) ++depth;
+    if (!quoted && (letter == ']' || letter == '}')) --depth;
+    if (letter == ',' && depth == 0 && !quoted) {
+      values.emplace_back();
+    } else {
+      values.back() += letter;
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+bool Variation::of_time() const {
+  return pointer == "/time" || pointer.starts_with("/time/");
+}
+
+Variation parse_variation(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || !text.starts_with('/')) {
+    throw InputError(fmt::format("--vary {}: write it as --vary /pointer=value,value", text));
+  }
+  Variation variation{std::string(text.substr(0, equals)), split_values(text.substr(equals + 1))};
+  std::set<std::string> folders;
+  for (const std::string& value : variation.values) {
+    if (value.empty()) throw InputError(fmt::format("--vary {}: a value is empty", text));
+    if (!folders.insert(folder_of_value(value)).second) {
+      throw InputError(fmt::format("--vary {}: '{}' is there twice (or its folder '{}' is)", text, value,
+                                   folder_of_value(value)));
+    }
+  }
+  return variation;
+}
+
+std::string folder_of_value(std::string_view value) {
+  std::string name;
+  for (const char letter : value) {
+    const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                       (letter >= '0' && letter <= '9') ||
+                       std::string_view(".+-_").find(letter) != std::string_view::npos;
+    name += plain ? letter : '_';
+  }
+  return name == "." || name == ".." ? "_" : name;
+}
+
+}  // namespace talus

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "output/vtu.hpp"
+#include "simulation/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct FramePoint {
+  Vec2 position, displacement, velocity;  ///< m without the scene's origin, m, m/s
+};
+
+struct FrameBody {
+  std::vector<std::vector<FramePoint>> loops;  ///< outer one first, counter-clockwise; holes clockwise
+  std::uint32_t material;
+  double speed;                            ///< m/s, of the centre of mass
+  double stress_xx, stress_yy, stress_xy;  ///< Pa
+};
+
+/// All that a picture of one instant shows.
+struct Frame {
+  double time = 0;  ///< s
+  Vec2 origin;      ///< m, added to positions on writing
+  std::vector<FrameBody> bodies;
+  std::vector<Contact> contacts;
+
+  bool finite() const;  ///< whether all positions are numbers
+};
+
+Frame sample_frame(const Simulation& simulation);
+
+/// Writes `frames.pvd` and, beside it, `frames/frame_000000.vtu` (bodies) and `frames/contacts_000000.vtu`
+/// (contact forces as points). The .pvd lists only whole files and is itself whole at any moment.
+class FrameWriter {
+ public:
+  explicit FrameWriter(const std::filesystem::path& folder);
+
+  void add(const Frame& frame);
+
+ private:
+  Grid body_grid(const Frame& frame);
+
+  std::filesystem::path folder_;
+  std::size_t count_ = 0;
+  std::string entries_;  ///< DataSet lines of the .pvd
+  std::vector<std::vector<std::vector<std::int64_t>>>
+      cells_;  ///< [body][cell][corner], as in the first frame
+};
+
+Grid contact_grid(const Frame& frame);
+
+}  // namespace talus

@@ -1,0 +1,59 @@
+#include "output/history.hpp"
+
+#include "output/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace talus {
+
+std::vector<std::string> monitor_columns(const Scene& scene) {
+  std::vector<std::string> columns;
+  for (const Monitor& monitor : scene.monitors) {
+    for (const std::string& name : monitor.quantities) {
+      columns.push_back(fmt::format("{}.{} [{}]", monitor.name, name, find_quantity(name)->unit));
+    }
+  }
+  return columns;
+}
+
+std::vector<double> sample_monitors(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  std::vector<double> values;
+  for (const Monitor& monitor : scene.monitors) {
+    const Motion motion = monitor.point ? simulation.point_motion(monitor.body, *monitor.point)
+                                        : simulation.body_motion(monitor.body);
+    for (const std::string& name : monitor.quantities) {
+      values.push_back(find_quantity(name)->value(motion, scene.origin));
+    }
+  }
+  return values;
+}
+
+HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::span<const std::string> columns)
+    : file_(file) {
+  errno = 0;
+  stream_.open(file, std::ios::binary | std::ios::trunc);
+  std::vector<std::string> fields{"t [s]"};
+  fields.insert(fields.end(), columns.begin(), columns.end());
+  write(csv_line(fields));
+}
+
+void HistoryWriter::add(double time, std::span<const double> values) {
+  std::string line = fmt::format("{}", time);
+  for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
+  write(line);
+}
+
+void HistoryWriter::write(const std::string& line) {
+  stream_ << line << '\n' << std::flush;
+  if (!stream_) {
+    const int reason = errno != 0 ? errno : EIO;
+    throw std::system_error(reason, std::generic_category(),
+                            fmt::format("cannot write '{}'", file_.string()));
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,56 @@
+#include "output/output_folder.hpp"
+
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_frame(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return (name.starts_with("frame_") || name.starts_with("contacts_")) &&
+         (name.ends_with(".vtu") || name.ends_with(".vtu.part"));
+}
+
+std::vector<fs::path> results_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const char* name :
+       {"history.csv", "resolved.json", "run.json", "frames.pvd", "compare.csv", "compare.json"}) {
+    for (const char* ending : {"", ".part"}) {
+      if (fs::exists(folder / (std::string(name) + ending)))
+        found.push_back(folder / (std::string(name) + ending));
+    }
+  }
+  if (fs::is_directory(folder / "frames")) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
+      if (is_frame(entry.path())) found.push_back(entry.path());
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+void prepare_output_folder(const fs::path& folder, bool overwrite) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw InputError(fmt::format("'{}' is in the way: it is a file, not a folder", folder.string()));
+  }
+  const std::vector<fs::path> results = results_in(folder);
+  if (!results.empty() && !overwrite) {
+    throw InputError(fmt::format(
+        "'{}' holds results already ('{}'): give --overwrite to replace them or --out for another "
+        "folder",
+        folder.string(), results[0].filename().string()));
+  }
+  for (const fs::path& file : results) fs::remove(file);
+  fs::create_directories(folder);
+}
+
+}  // namespace talus

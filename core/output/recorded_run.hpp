@@ -1,0 +1,51 @@
+#pragma once
+
+#include "output/series.hpp"
+#include "output/stopwatch.hpp"
+#include "scene/read.hpp"
+#include "simulation/simulation.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+enum class RunEnd {
+  finished,
+  interrupted,  ///< by the user
+  stopped,      ///< by numerical trouble
+};
+
+/// How a run is to be made and recorded.
+struct RunOrder {
+  std::filesystem::path folder;  ///< prepared already
+  std::vector<Override> overrides;
+  std::string scene_hash;  ///< XXH3-128 of the scene file's bytes
+  RunSettings settings;
+  CpuClock clock = CpuClock::process;
+  std::function<void(Simulation&)> before_settling, after_settling;  ///< called even if nothing settles
+  const bool* interrupted = nullptr;                                 ///< polled once per step
+  std::function<void(double time)> progress;                         ///< called at each output time
+};
+
+/// What came out of a run.
+struct RunResult {
+  RunEnd end = RunEnd::finished;
+  std::string trouble;  ///< words, where it was stopped
+  double time = 0;      ///< s, how far it came
+  Series history;       ///< the rows of history.csv
+  Elapsed settling, stepping, writing;
+  double block_steps_per_second = 0;  ///< of wall time in the steps
+  std::size_t blocks = 0;
+  RunSummary summary;
+  EnergyLedger ledger;
+  std::string state_hash;
+};
+
+/// Settles, runs to the end and writes history.csv, frames, resolved.json and run.json on the way. Numerical
+/// trouble and an interruption end the run with all files whole and the last state in them.
+RunResult record_run(Simulation& simulation, const RunOrder& order);
+
+}  // namespace talus

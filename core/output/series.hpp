@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// Columns over time: what history.csv and reference files hold. Times increase.
+struct Series {
+  std::vector<double> time;                 ///< s
+  std::vector<std::string> names;           ///< [column] "<monitor>.<quantity> [unit]"
+  std::vector<std::vector<double>> values;  ///< [column][row]
+
+  std::optional<std::size_t> column(std::string_view name) const;
+};
+
+/// One line of a CSV file without its end, quoted where a field needs it.
+std::string csv_line(std::span<const std::string> fields);
+
+/// Reads a CSV file whose first column is "t [s]"; lines that start with # are comments, an empty field is no
+/// number (NaN). Throws InputError with file and line; std::system_error when it cannot be read.
+Series read_series(const std::filesystem::path& file);
+Series read_series_text(std::string_view text, const std::string& name);
+
+/// Linear between the rows around `time`; nothing outside of their range.
+std::optional<double> interpolate(std::span<const double> times, std::span<const double> values, double time);
+
+}  // namespace talus

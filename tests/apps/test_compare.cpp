@@ -1,0 +1,83 @@
+#include "output/scratch.hpp"
+#include "output/series.hpp"
+#include "output/whole_file.hpp"
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+nlohmann::json json_of(const std::filesystem::path& file) {
+  return nlohmann::json::parse(read_whole_file(file));
+}
+
+std::string scene_with(const std::string& line) {
+  std::string text = small_scene();
+  return text.insert(text.find("\"title\""), line + ", ");
+}
+
+}  // namespace
+
+TEST_CASE("compare runs laws side by side from one geometry at one step", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.3, \"damping\": 30}"));
+  const Call call = call_talus(scratch.folder(), {"compare", "small.json", "--vary",
+                                                  "/contact/model=overlap_area,vertex_edge", "--at", "0.1"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("vertex_edge") && Contains("block.speed [m/s]") && Contains("at 0.1 s"));
+  const Series series = read_series(scratch / "out/small-compare/compare.csv");
+  CHECK(series.column("overlap_area/block.speed [m/s]"));
+  CHECK(series.column("vertex_edge/block.speed [m/s]"));
+  CHECK(series.time.size() == 21);
+  const auto json = json_of(scratch / "out/small-compare/compare.json");
+  CHECK(json["runs"][0]["dt [s]"] == json["runs"][1]["dt [s]"]);
+  CHECK(json["runs"][0]["steps"] == json["runs"][1]["steps"]);
+  CHECK(json["runs"][0]["settled_difference [m]"] == 0);
+  CHECK(json["runs"][1]["settled_difference [m]"].get<double>() < 1e-4);
+  for (const char* file : {"overlap_area/run.json", "vertex_edge/history.csv", "vertex_edge/resolved.json"}) {
+    CHECK(std::filesystem::exists(scratch / (std::string("out/small-compare/") + file)));
+  }
+  const Call again = call_talus(
+      scratch.folder(), {"compare", "small.json", "--vary", "/contact/model=overlap_area,vertex_edge"});
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Contains("--overwrite"));
+}
+
+TEST_CASE("each run keeps its own step where the time settings vary", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(),
+                               {"compare", "small.json", "--vary", "/time/dt=1e-4,5e-5", "--out", "order"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  const auto json = json_of(scratch / "order/compare.json");
+  CHECK(json["common_dt [s]"].is_null());
+  CHECK(json["runs"][1]["steps"] == 2 * json["runs"][0]["steps"].get<int>());
+}
+
+TEST_CASE("a broken tolerance has its own exit code", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"tolerances\": [{\"monitor\": \"block\", \"quantity\": \"uy\", "
+                                         "\"against\": \"reference\", \"largest\": 1e-3}]"));
+  const Call first = call_talus(scratch.folder(), {"run", "small.json", "--out", "a"});
+  REQUIRE(first.code == 0);
+  const std::vector<std::string> words{
+      "compare", "small.json", "--vary",     "/contact/model=overlap_area", "--reference", "a/history.csv",
+      "--out",   "b",          "--overwrite"};
+  const Call held = call_talus(scratch.folder(), words);
+  INFO(held.err);
+  CHECK(held.code == 0);
+  CHECK(json_of(scratch / "b/compare.json")["tolerances_held"] == true);
+  scratch.write("a/history.csv", "t [s],block.uy [m]\n0,0\n1,1\n");
+  const Call broken = call_talus(scratch.folder(), words);
+  CHECK(broken.code == 6);
+  CHECK_THAT(broken.out, Contains("BROKEN"));
+  CHECK(json_of(scratch / "b/compare.json")["tolerances"][0]["verdict"] == "broken");
+  scratch.write("a/history.csv", "t [s],block.uy\n0,0\n");
+  CHECK(call_talus(scratch.folder(), words).code == 2);
+}

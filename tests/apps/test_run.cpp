@@ -1,0 +1,144 @@
+#include "output/hash.hpp"
+#include "output/scratch.hpp"
+#include "output/series.hpp"
+#include "output/whole_file.hpp"
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+nlohmann::json json_of(const std::filesystem::path& file) {
+  return nlohmann::json::parse(read_whole_file(file));
+}
+
+}  // namespace
+
+TEST_CASE("a run writes its results and will not overwrite them", "[apps][run]") {
+  const Scratch scratch;
+  const auto scene = scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "small.json"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("finished at t = 0.2 s") && Contains("out/small"));
+  CHECK_THAT(call.err, Contains("50 %"));
+  const Series history = read_series(scratch / "out/small/history.csv");
+  CHECK(history.names == std::vector<std::string>{"block.ux [m]", "block.uy [m]", "block.vx [m/s]",
+                                                  "block.vy [m/s]", "block.speed [m/s]",
+                                                  "block.rotation [deg]"});
+  REQUIRE(history.time.size() == 21);
+  CHECK(history.time.front() == 0);
+  CHECK(history.time.back() == 0.2);
+  CHECK(history.values[1].back() == Approx(-0.01).margin(2e-3));
+  for (const char* name :
+       {"frames.pvd", "frames/frame_000002.vtu", "frames/contacts_000002.vtu", "resolved.json"}) {
+    CHECK(std::filesystem::exists(scratch / (std::string("out/small/") + name)));
+  }
+  const auto record = json_of(scratch / "out/small/run.json");
+  CHECK(record["end"] == "finished");
+  CHECK(record["scene"]["xxh3_128"] == hash_of_file(scene));
+  CHECK(record["plugins"][0]["name"] == "overlap_area");
+  CHECK(record["steps"] > 20);
+  CHECK(record["blocks"] == 1);
+  CHECK(record["state_hash"].get<std::string>().size() >= 16);
+
+  const Call again = call_talus(scratch.folder(), {"run", "small.json"});
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Contains("--overwrite"));
+  const Call over = call_talus(
+      scratch.folder(), {"run", "small.json", "--overwrite", "--quiet", "--threads", "2", "--no-skin"});
+  CHECK(over.code == 0);
+  CHECK(over.out.empty());
+  CHECK(json_of(scratch / "out/small/run.json")["state_hash"] == record["state_hash"]);
+}
+
+TEST_CASE("what was resolved runs to the same state", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "a", "--set", "/time/end=0.1"}).code ==
+          0);
+  const Call call = call_talus(scratch.folder(), {"run", "a/resolved.json", "--out", "b"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK(json_of(scratch / "a/run.json")["state_hash"] == json_of(scratch / "b/run.json")["state_hash"]);
+  CHECK(json_of(scratch / "a/run.json")["settings"]["set"][0]["pointer"] == "/time/end");
+}
+
+TEST_CASE("bad files and scenes have their exit codes", "[apps][run]") {
+  const Scratch scratch;
+  const Call missing = call_talus(scratch.folder(), {"run", "absent.json"});
+  CHECK(missing.code == 5);
+  CHECK_THAT(missing.err, Contains("absent.json"));
+  std::string text = small_scene();
+  text.replace(text.find("\"gravity\""), 9, "\"gravitty\"");
+  scratch.write("bad.json", text);
+  for (const char* command : {"run", "validate"}) {
+    const Call wrong = call_talus(scratch.folder(), {command, "bad.json"});
+    CHECK(wrong.code == 2);
+    CHECK(wrong.out.empty());
+    CHECK_THAT(wrong.err, Contains("bad.json:5:") && Contains("gravitty") && Contains("gravity\""));
+  }
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+  scratch.write("file", "");
+  CHECK(call_talus(scratch.folder(), {"run", "bad.json", "--set", "/nope=1"}).code == 2);
+}
+
+TEST_CASE("validate says what a scene is", "[apps][validate]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"validate", "small.json"});
+  INFO(call.err);
+  CHECK(call.code == 0);
+  CHECK_THAT(call.out, Contains("no mistake") && Contains("2, 1 fixed, 1 with cover rigid") &&
+                           Contains("overlap_area") && Contains("of critical") &&
+                           Contains("block.speed [m/s]") && Contains("it names none by path"));
+}
+
+TEST_CASE("libraries that a scene names load only when allowed", "[apps][validate]") {
+  const Scratch scratch;
+  std::string text = small_scene();
+  text.insert(text.find("\"title\""), "\"plugins\": [\"./libnowhere.so\"], ");
+  scratch.write("foreign.json", text);
+  const Call call = call_talus(scratch.folder(), {"validate", "foreign.json"});
+  CHECK(call.code == 3);
+  CHECK_THAT(call.out + call.err, Contains("./libnowhere.so") && Contains("--allow-plugins"));
+}
+
+TEST_CASE("a run that is interrupted leaves whole files", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Call call = call_and_signal(scratch.folder(),
+                                      {"run", "small.json", "--overwrite", "--set", "/time/end=1e5", "--set",
+                                       "/output/frames=100", "--set", "/output/history=1"},
+                                      signal, scratch / "out/small/frames.pvd");
+    INFO(call.err);
+    CHECK(call.code == 130);
+    CHECK_THAT(call.err, Contains("interrupted at t = ") && Contains("out/small"));
+    const auto record = json_of(scratch / "out/small/run.json");
+    CHECK(record["end"] == "interrupted");
+    const Series history = read_series(scratch / "out/small/history.csv");
+    CHECK(history.time.back() == record["t [s]"].get<double>());
+    CHECK_THAT(read_whole_file(scratch / "out/small/frames.pvd"), Contains("</VTKFile>"));
+  }
+}
+
+TEST_CASE("numerical trouble is told, recorded and ends with its code", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  // A hundred times the critical step.
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--set", "/time/dt=0.1", "--set",
+                                                  "/output/history=0.1", "--set", "/time/end=20"});
+  INFO(call.err);
+  CHECK(call.code == 4);
+  const auto record = json_of(scratch / "out/small/run.json");
+  CHECK(record["end"] == "stopped");
+  CHECK_THAT(call.err, Contains(record["trouble"].get<std::string>()));
+  CHECK(std::filesystem::exists(scratch / "out/small/frames/frame_000000.vtu"));
+}

@@ -1,0 +1,71 @@
+#include "output/scratch.hpp"
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("help and version go to stdout", "[apps]") {
+  const Scratch scratch;
+  const Call help = call_talus(scratch.folder(), {"--help"});
+  CHECK(help.code == 0);
+  CHECK_THAT(help.out,
+             Contains("compare") && Contains("Examples") && Contains("130") && Contains("out/<scene name>"));
+  CHECK(help.err.empty());
+  const Call version = call_talus(scratch.folder(), {"--version"});
+  CHECK(version.code == 0);
+  CHECK(version.out == "talus " TALUS_VERSION "\n");
+  for (const char* command : {"run", "compare", "validate", "plugins", "describe"}) {
+    const Call call = call_talus(scratch.folder(), {command, "--help"});
+    CHECK(call.code == 0);
+    CHECK_THAT(call.out, Contains(std::string("Usage: talus ") + command) && Contains("--plugin-path"));
+  }
+}
+
+TEST_CASE("a word that is no command or option gets the nearest one", "[apps]") {
+  const Scratch scratch;
+  const Call command = call_talus(scratch.folder(), {"compere"});
+  CHECK(command.code == 2);
+  CHECK_THAT(command.err, Contains("unknown command 'compere'") && Contains("did you mean 'compare'?"));
+  CHECK(command.out.empty());
+  const Call option = call_talus(scratch.folder(), {"run", "scene.json", "--overwrit"});
+  CHECK(option.code == 2);
+  CHECK_THAT(option.err, Contains("unknown option '--overwrit'") && Contains("'--overwrite'"));
+  CHECK(call_talus(scratch.folder(), {"--versoin"}).code == 2);
+  CHECK(call_talus(scratch.folder(), {}).code == 2);
+}
+
+TEST_CASE("arguments that are missing, too many or senseless are told", "[apps]") {
+  const Scratch scratch;
+  const auto refused = [&](const std::vector<std::string>& words) {
+    const Call call = call_talus(scratch.folder(), words);
+    CHECK(call.code == 2);
+    CHECK(call.out.empty());
+    return call.err;
+  };
+  CHECK_THAT(refused({"run"}), Contains("SCENE is missing"));
+  CHECK_THAT(refused({"run", "a.json", "b.json"}), Contains("one SCENE only"));
+  CHECK_THAT(refused({"run", "a.json", "--threads", "many"}), Contains("--threads"));
+  CHECK_THAT(refused({"run", "a.json", "--threads", "0"}), Contains("--threads 0"));
+  CHECK_THAT(refused({"run", "a.json", "--set", "time=1"}), Contains("--set /pointer=value"));
+  CHECK_THAT(refused({"run", "a.json", "--plugin-path", "nowhere"}), Contains("nowhere"));
+  CHECK_THAT(refused({"compare", "a.json"}), Contains("--vary"));
+  CHECK_THAT(refused({"compare", "a.json", "--vary", "/contact/model"}), Contains("/pointer=value"));
+}
+
+TEST_CASE("plugins and describe read the descriptors", "[apps]") {
+  const Scratch scratch;
+  const Call plugins = call_talus(scratch.folder(), {"plugins"});
+  CHECK(plugins.code == 0);
+  CHECK_THAT(plugins.out, Contains("overlap_area") && Contains("vertex_edge") && Contains("linear_elastic") &&
+                              Contains("contact law"));
+  const Call law = call_talus(scratch.folder(), {"describe", "overlap_area"});
+  CHECK(law.code == 0);
+  CHECK_THAT(law.out, Contains("friction_rule") && Contains("return_mapping") &&
+                          Contains("normal_stiffness") && Contains("Pa/m") && Contains("required"));
+  CHECK_THAT(call_talus(scratch.folder(), {"describe", "/time"}).out, Contains("safety") && Contains("0.2"));
+  const Call unknown = call_talus(scratch.folder(), {"describe", "overlap_aera"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("did you mean 'overlap_area'?"));
+}

@@ -1,0 +1,69 @@
+#include "compare/deviation.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace talus;
+
+namespace {
+
+Series line(std::vector<double> times, double offset, double slope) {
+  Series series{times, {"block.speed [m/s]"}, {{}}};
+  for (const double time : times) series.values[0].push_back(offset + slope * time);
+  return series;
+}
+
+}  // namespace
+
+TEST_CASE("deviations of curves at the same times", "[compare][deviation]") {
+  const Series baseline = line({0, 1, 2, 3}, 0, 1);
+  Series run = baseline;
+  run.values[0] = {0, 1.5, -1, 3.25};
+  const auto found = deviation(run, 0, baseline, 0);
+  REQUIRE(found);
+  CHECK(found->largest == -3);
+  CHECK(found->largest_time == 2);
+  CHECK(found->rms == Approx(std::sqrt((0.25 + 9 + 0.0625) / 4)).epsilon(1e-15));
+  CHECK(found->final == 0.25);
+  CHECK(found->final_time == 3);
+  CHECK(found->times == 4);
+}
+
+TEST_CASE("a reference is interpolated, and used only as far as it reaches", "[compare][deviation]") {
+  const Series reference = line({0.5, 2.5}, 1, 2);
+  const Series run = line({0, 0.5, 1, 2, 2.5, 3}, 1.125, 2);
+  const auto found = deviation(run, 0, reference, 0);
+  REQUIRE(found);
+  CHECK(found->times == 4);
+  CHECK(found->largest == Approx(0.125));
+  CHECK(found->rms == Approx(0.125));
+  CHECK(found->final_time == 2.5);
+  CHECK_FALSE(deviation(line({7, 8}, 0, 0), 0, reference, 0));
+  CHECK(deviation_at(run, 0, reference, 0, 1.75).value() == Approx(0.125));
+  CHECK_FALSE(deviation_at(run, 0, reference, 0, 2.75));
+}
+
+TEST_CASE("a value that is no number is the largest deviation", "[compare][deviation]") {
+  const Series baseline = line({0, 1, 2}, 0, 0);
+  Series run = baseline;
+  run.values[0] = {5, std::numeric_limits<double>::quiet_NaN(), 9};
+  const auto found = deviation(run, 0, baseline, 0);
+  REQUIRE(found);
+  CHECK(std::isnan(found->largest));
+  CHECK(found->largest_time == 1);
+  const Tolerance tolerance{"block", "speed", false, 100, {}, {}};
+  CHECK_FALSE(check(tolerance, *found)[0].held);
+}
+
+TEST_CASE("each limit of a tolerance is judged by magnitude", "[compare][deviation]") {
+  const Deviation found{-0.3, 1, 0.1, 0.05, 2, 10};
+  const auto checks = check({"block", "speed", false, 0.2, 0.1, 0.06}, found);
+  REQUIRE(checks.size() == 3);
+  CHECK(checks[0].measure == "largest");
+  CHECK_FALSE(checks[0].held);
+  CHECK(checks[1].held);
+  CHECK(checks[2].held);
+  CHECK(check({"block", "speed", false, {}, {}, 0.01}, found).size() == 1);
+}

@@ -1,0 +1,112 @@
+#include "compare/report.hpp"
+#include "output/input_error.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+ComparisonOrder example_order() {
+  ComparisonOrder order;
+  order.variation = parse_variation("/contact/model=overlap_area,vertex_edge");
+  order.scenes.resize(2);
+  for (Scene& scene : order.scenes) {
+    scene.file = "incline.json";
+    scene.monitors = {{"block", 0, {}, {"speed"}}};
+  }
+  order.scenes[0].tolerances = {{"block", "speed", false, 0.5, {}, {}}};
+  order.moments = {0.5};
+  return order;
+}
+
+ComparedRun run_of(const std::string& value, std::vector<double> speeds, double cpu, double own_dt) {
+  ComparedRun run;
+  run.value = value;
+  run.own_dt = own_dt;
+  run.result.history = {{0, 1, 2}, {"block.speed [m/s]"}, {speeds}};
+  run.result.history.time.resize(speeds.size());
+  run.result.stepping.cpu = cpu;
+  run.result.summary.steps = 1000;
+  run.result.summary.dt = 0.002;
+  return run;
+}
+
+Comparison example_comparison() {
+  Comparison comparison;
+  comparison.runs = {run_of("overlap_area", {0, 1, 2}, 2, 0.002),
+                     run_of("vertex_edge", {0, 1.25, 1.75}, 1, 0.004)};
+  comparison.common_dt = 0.002;
+  return comparison;
+}
+
+}  // namespace
+
+TEST_CASE("compare.csv puts the runs side by side", "[compare][report]") {
+  Comparison comparison = example_comparison();
+  CHECK(comparison_csv(comparison) ==
+        "t [s],overlap_area/block.speed [m/s],vertex_edge/block.speed [m/s]\n0,0,0\n1,1,1.25\n2,2,1.75\n");
+  comparison.runs[1].result.history = {{0, 1.5}, {"block.speed [m/s]"}, {{0, 3}}};
+  CHECK(comparison_csv(comparison) ==
+        "t [s],overlap_area/block.speed [m/s],vertex_edge/block.speed [m/s]\n0,0,0\n1,1,2\n2,2,\n");
+}
+
+TEST_CASE("compare.json holds deviations, cost and tolerances", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  order.reference = ReferenceFile{"curve.csv", "", {{0, 2}, {"block.speed [m/s]"}, {{0, 4}}}};
+  order.scenes[0].tolerances.push_back({"block", "speed", true, {}, {}, 0.1});
+  Comparison comparison = example_comparison();
+  evaluate(order, comparison);
+  const auto json = nlohmann::json::parse(comparison_json(order, comparison));
+  const auto& column = json["deviations"]["block.speed [m/s]"];
+  CHECK(column["vertex_edge"]["from_baseline"]["largest"] == 0.25);
+  CHECK(column["vertex_edge"]["from_baseline"]["largest_at [s]"] == 1);
+  CHECK(column["vertex_edge"]["from_baseline"]["final"] == -0.25);
+  CHECK(column["vertex_edge"]["from_baseline"]["at"]["0.5"] == 0.125);
+  CHECK(column["overlap_area"]["from_reference"]["largest"] == -2);
+  CHECK(column["overlap_area"].contains("from_baseline") == false);
+  CHECK(json["runs"][1]["cost_at_equal_dt"] == 0.5);
+  CHECK(json["runs"][1]["own_steps"] == 500);
+  CHECK(json["runs"][1]["cost_at_own_dt"] == 0.25);
+  REQUIRE(json["tolerances"].size() == 3);
+  CHECK(json["tolerances"][0]["verdict"] == "held");
+  CHECK(json["tolerances"][1]["verdict"] == "broken");
+  CHECK(json["tolerances_held"] == false);
+}
+
+TEST_CASE("a tolerance broken by a hair is broken", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  Comparison comparison = example_comparison();
+  order.scenes[0].tolerances[0].largest = 0.25;
+  evaluate(order, comparison);
+  CHECK(comparison.tolerances_held());
+  order.scenes[0].tolerances[0].largest = 0.2499999;
+  comparison = example_comparison();
+  evaluate(order, comparison);
+  CHECK_FALSE(comparison.tolerances_held());
+  CHECK_THAT(comparison_table(order, comparison), Contains("BROKEN") && Contains("block.speed"));
+}
+
+TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  order.scenes[0].tolerances = {{"block", "speed", true, 0.5, {}, {}}};
+  Comparison comparison = example_comparison();
+  evaluate(order, comparison);
+  REQUIRE(comparison.warnings.size() == 1);
+  CHECK_THAT(comparison.warnings[0], Contains("--reference"));
+}
+
+TEST_CASE("an order that compares nothing is refused", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  CHECK_NOTHROW(check_order(order));
+  order.reference = ReferenceFile{"curve.csv", "", {{0}, {"block.speed [km/h]"}, {{0}}}};
+  CHECK_THROWS_WITH(check_order(order), Contains("km/h") && Contains("block.speed [m/s]"));
+  order.reference.reset();
+  order.scenes.pop_back();
+  CHECK_THROWS_WITH(check_order(order), Contains("two values"));
+  order = example_order();
+  for (Scene& scene : order.scenes) scene.monitors.clear();
+  CHECK_THROWS_AS(check_order(order), InputError);
+}

@@ -1,0 +1,50 @@
+#include "output/hash.hpp"
+#include "output/input_error.hpp"
+#include "output/output_folder.hpp"
+#include "output/whole_file.hpp"
+#include "scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("hashes are those of xxh128sum", "[output][hash]") {
+  CHECK(hash_of_bytes("") == "99aa06d3014798d86001c324468d497f");
+  const Scratch scratch;
+  CHECK(hash_of_file(scratch.write("empty", "")) == hash_of_bytes(""));
+  CHECK(hash_of_file(scratch.write("one", "a")) == hash_of_bytes("a"));
+  CHECK(hash_of_bytes("a") != hash_of_bytes("b"));
+}
+
+TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "[output][files]") {
+  const Scratch scratch;
+  write_whole_file(scratch / "run.json", "first, and long");
+  write_whole_file(scratch / "run.json", "second");
+  CHECK(read_whole_file(scratch / "run.json") == "second");
+  CHECK(std::distance(std::filesystem::directory_iterator(scratch.folder()), {}) == 1);
+  CHECK_THROWS_WITH(write_whole_file(scratch / "nowhere/run.json", ""), Contains("nowhere"));
+  CHECK_THROWS_WITH(read_whole_file(scratch / "absent.json"), Contains("absent.json"));
+  CHECK_THROWS_AS(read_whole_file(scratch.folder()), std::system_error);
+}
+
+TEST_CASE("results are not overwritten unasked, other files never", "[output][files]") {
+  const Scratch scratch;
+  const auto folder = scratch / "out/deep";
+  prepare_output_folder(folder, false);
+  CHECK(std::filesystem::is_directory(folder));
+  scratch.write("out/deep/notes.txt", "mine");
+  CHECK_NOTHROW(prepare_output_folder(folder, false));
+  scratch.write("out/deep/history.csv", "t [s]");
+  std::filesystem::create_directory(folder / "frames");
+  scratch.write("out/deep/frames/frame_000007.vtu", "");
+  scratch.write("out/deep/frames/photo.vtu", "");
+  CHECK_THROWS_WITH(prepare_output_folder(folder, false), Contains("--overwrite") && Contains("history.csv"));
+  CHECK(std::filesystem::exists(folder / "history.csv"));
+  prepare_output_folder(folder, true);
+  CHECK_FALSE(std::filesystem::exists(folder / "history.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "frames/frame_000007.vtu"));
+  CHECK(std::filesystem::exists(folder / "frames/photo.vtu"));
+  CHECK(read_whole_file(folder / "notes.txt") == "mine");
+  CHECK_THROWS_AS(prepare_output_folder(folder / "notes.txt", true), InputError);
+}

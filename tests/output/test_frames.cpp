@@ -1,0 +1,142 @@
+#include "decode.hpp"
+#include "output/frame.hpp"
+#include "output/triangulate.hpp"
+#include "output/whole_file.hpp"
+#include "scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+FramePoint at(double x, double y) {
+  return {{x, y}, {x / 8, y / 8}, {2 * x, -y}};
+}
+
+Frame example_frame(double time) {
+  Frame frame;
+  frame.time = time;
+  frame.origin = {500000, 0};
+  frame.bodies.push_back({{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}}, 2, 3.5, 1, 2, 3});
+  frame.bodies.push_back(
+      {{{at(2, 0), at(4, 0), at(4, 2), at(2, 2)}, {at(2.5, 0.5), at(2.5, 1.5), at(3.5, 1.5), at(3.5, 0.5)}},
+       1,
+       0.5,
+       4,
+       5,
+       6});
+  frame.contacts.push_back({0, 1, {1, 0.5}, {7, 8}, {-9, 10}, 1e-3, true});
+  return frame;
+}
+
+double area(const std::vector<std::vector<Vec2>>& loops, bool each_positive) {
+  std::vector<Vec2> points;
+  for (const auto& loop : loops) points.insert(points.end(), loop.begin(), loop.end());
+  double sum = 0;
+  for (const auto& [a, b, c] : triangulate(loops)) {
+    const Vec2 p = points[a], q = points[b], r = points[c];
+    const double twice = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    if (each_positive) CHECK(twice > 0);
+    sum += twice / 2;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("an inline array decodes to its bytes at every block boundary", "[output][vtu]") {
+  for (const std::size_t size : {0u, 1u, 2u, 3u, 32767u, 32768u, 32769u, 65536u, 100000u}) {
+    std::vector<unsigned char> bytes(size);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<unsigned char>(i * i % 251);
+    CHECK(decode::inline_bytes(encode_inline(bytes.data(), size)) == bytes);
+  }
+}
+
+TEST_CASE("bodies of a frame read back", "[output][vtu]") {
+  const Scratch scratch;
+  FrameWriter writer(scratch.folder());
+  writer.add(example_frame(0));
+  const std::string file = read_whole_file(scratch / "frames/frame_000000.vtu");
+  CHECK_THAT(file, Contains("compressor=\"vtkZLibDataCompressor\"") && Contains("header_type=\"UInt64\"") &&
+                       !Contains("appended"));
+  CHECK_THAT(file, Contains("NumberOfPoints=\"12\" NumberOfCells=\"9\""));
+  const auto points = decode::array<double>(file, "Points");
+  REQUIRE(points.size() == 36);
+  CHECK(std::vector<double>(points.begin() + 3, points.begin() + 9) ==
+        std::vector<double>{500001, 0, 0, 500001, 1, 0});
+  CHECK(decode::array<double>(file, "displacement")[4 * 3] == 0.25);
+  CHECK(decode::array<double>(file, "velocity")[2 * 3 + 1] == -1);
+  const auto types = decode::array<unsigned char>(file, "types");
+  CHECK(types == std::vector<unsigned char>{7, 5, 5, 5, 5, 5, 5, 5, 5});
+  CHECK(decode::array<std::int64_t>(file, "offsets") ==
+        std::vector<std::int64_t>{4, 7, 10, 13, 16, 19, 22, 25, 28});
+  const auto connectivity = decode::array<std::int64_t>(file, "connectivity");
+  CHECK(std::vector<std::int64_t>(connectivity.begin(), connectivity.begin() + 4) ==
+        std::vector<std::int64_t>{0, 1, 2, 3});
+  for (std::size_t i = 4; i < connectivity.size(); ++i) CHECK((connectivity[i] >= 4 && connectivity[i] < 12));
+  CHECK(decode::array<double>(file, "stress_xy") == std::vector<double>{3, 6, 6, 6, 6, 6, 6, 6, 6});
+  CHECK(decode::array<double>(file, "speed")[0] == 3.5);
+  CHECK(decode::array<std::int32_t>(file, "material")[0] == 2);
+  CHECK(decode::array<std::int32_t>(file, "body")[8] == 1);
+}
+
+TEST_CASE("contacts of a frame read back", "[output][vtu]") {
+  const std::string file = vtu_text(contact_grid(example_frame(0.5)), 0.5);
+  CHECK(decode::array<double>(file, "Points") == std::vector<double>{500001, 0.5, 0});
+  CHECK(decode::array<double>(file, "normal_force") == std::vector<double>{7, 8, 0});
+  CHECK(decode::array<double>(file, "tangential_force") == std::vector<double>{-9, 10, 0});
+  CHECK(decode::array<double>(file, "penetration") == std::vector<double>{1e-3});
+  CHECK(decode::array<std::int32_t>(file, "slipping") == std::vector<std::int32_t>{1});
+  CHECK(decode::array<unsigned char>(file, "types") == std::vector<unsigned char>{1});
+  CHECK_THAT(file, Contains("ascii\">0.5<"));
+}
+
+TEST_CASE("a frame without contacts is a file all the same", "[output][vtu]") {
+  Frame frame = example_frame(0);
+  frame.contacts.clear();
+  const std::string file = vtu_text(contact_grid(frame), 0);
+  CHECK_THAT(file, Contains("NumberOfPoints=\"0\" NumberOfCells=\"0\""));
+  CHECK(decode::array<double>(file, "normal_force").empty());
+}
+
+TEST_CASE("the collection lists every time from the first frame on", "[output][pvd]") {
+  const Scratch scratch;
+  FrameWriter writer(scratch.folder());
+  for (const double time : {0.0, 0.1, 0.30000000000000004}) {
+    writer.add(example_frame(time));
+    const std::string collection = read_whole_file(scratch / "frames.pvd");
+    CHECK_THAT(collection, Contains("timestep=\"0\" part=\"0\" file=\"frames/frame_000000.vtu\""));
+    CHECK_THAT(collection, Contains("</VTKFile>"));
+  }
+  const std::string collection = read_whole_file(scratch / "frames.pvd");
+  CHECK_THAT(collection, Contains("timestep=\"0.1\" part=\"1\" file=\"frames/contacts_000001.vtu\""));
+  CHECK_THAT(collection,
+             Contains("timestep=\"0.30000000000000004\" part=\"0\" file=\"frames/frame_000002.vtu\""));
+  CHECK_FALSE(std::filesystem::exists(scratch / "frames.pvd.part"));
+}
+
+TEST_CASE("a frame knows whether its positions are numbers", "[output][vtu]") {
+  Frame frame = example_frame(0);
+  CHECK(frame.finite());
+  frame.bodies[1].loops[1][2].position.y = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(frame.finite());
+}
+
+TEST_CASE("triangles fill a polygon with holes", "[output][triangulate]") {
+  const std::vector<Vec2> square{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
+  const std::vector<Vec2> left{{1, 1}, {1, 3}, {2, 3}, {2, 1}}, right{{4, 1}, {4, 3}, {5, 3}, {5, 1}},
+      top{{1, 4}, {3, 5}, {5, 4}};
+  CHECK(area({square}, true) == Approx(36));
+  CHECK(area({square, left}, true) == Approx(34));
+  CHECK(area({square, left, right}, true) == Approx(32));
+  CHECK(area({square, top, left, right}, true) == Approx(30));
+  const std::vector<Vec2> hook{{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}};
+  CHECK(area({hook}, true) == Approx(10));
+  const std::vector<Vec2> subdivided{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  CHECK(area({subdivided}, false) == Approx(4));
+}
