@@ -3,6 +3,8 @@
 #include <talus/library.hpp>
 #include <talus/overlap/distributed_contact.hpp>
 
+#include <memory>
+
 namespace {
 
 using namespace talus;
@@ -21,8 +23,8 @@ class Frictionless final : public ContactModel {
   std::uint32_t doubles_per_contact() const noexcept override { return 0; }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
-    static thread_local overlap::DistributedContact<Frictionless> contact;
-    contact.evaluate(*this, batch, loads);
+    static thread_local const auto contact = std::make_unique<overlap::DistributedContact<Frictionless>>();
+    contact->evaluate(*this, batch, loads);
   }
 
   ContactStiffness stiffness(const double* values, double length) const noexcept override {

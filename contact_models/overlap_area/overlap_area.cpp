@@ -4,6 +4,8 @@
 #include <talus/library.hpp>
 #include <talus/overlap/distributed_contact.hpp>
 
+#include <memory>
+
 namespace {
 
 using namespace talus;
@@ -36,8 +38,8 @@ class OverlapArea final : public ContactModel {
   void prepare_interface(double* values) const noexcept override { values[2] = std::tan(values[2]); }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
-    static thread_local overlap::DistributedContact<OverlapArea> contact;
-    contact.evaluate(*this, batch, loads);
+    static thread_local const auto contact = std::make_unique<overlap::DistributedContact<OverlapArea>>();
+    contact->evaluate(*this, batch, loads);
   }
 
   ContactStiffness stiffness(const double* values, double length) const noexcept override {

@@ -26,7 +26,6 @@ struct CornerContact {
 
 struct PiecePairGeometry {
   Piece piece[2];
-  std::uint32_t first_corner[2];
 };
 
 /// Vertices that stand on (or, within `bond_reach`, just above) a side of the other piece. A corner against a
@@ -43,7 +42,7 @@ class CornerFinder {
       const Piece& other = geometry.piece[1 - body];
       for (std::uint32_t v = 0; v < own.size(); ++v) {
         if (!is_vertex(own, v)) continue;
-        const std::uint32_t key = 2 * (geometry.first_corner[body] + v) + body;
+        const std::uint32_t key = 2 * (own.first_corner() + v) + body;
         stand(own, other, v, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 1}, found);
       }
     }
@@ -60,20 +59,16 @@ class CornerFinder {
   /// Cosine of the turn below which two edges count as one straight stretch.
   static constexpr double straight = 1 - 1e-9;
 
-  static std::uint32_t previous(const Piece& piece, std::uint32_t i) {
-    return i == 0 ? piece.size() - 1 : i - 1;
-  }
-
   /// Whether the boundary turns here: neither the end of a cut nor a joint between collinear edges.
   static bool is_vertex(const Piece& piece, std::uint32_t v) {
-    const std::uint32_t before = previous(piece, v);
-    return piece.real(v) && piece.real(before) && dot(piece.tangent[before], piece.tangent[v]) < straight;
+    const std::uint32_t before = piece.previous(v);
+    return piece.real(v) && piece.real(before) && dot(piece.tangent(before), piece.tangent(v)) < straight;
   }
 
   static void stand(const Piece& own, const Piece& other, std::uint32_t v, double bond_reach,
                     CornerContact contact, std::vector<CornerContact>& found) {
-    const Point at = own.at[v];
-    const Point outward = own.tangent[previous(own, v)] - own.tangent[v];
+    const Point at = own.at(v);
+    const Point outward = own.tangent(own.previous(v)) - own.tangent(v);
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= 0) continue;
@@ -81,18 +76,19 @@ class CornerFinder {
       if (depth <= 0 && depth <= -bond_reach) return;
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
-      const double distance = depth + other.length[k] * std::max({0.0, -along, along - 1});
+      const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
       if (distance >= nearest) continue;
       nearest = distance;
       contact.side = k;
       contact.depth = depth;
     }
-    const double edge = std::min(own.length[v], own.length[previous(own, v)]);
+    const double edge = std::min(own.length(v), own.length(own.previous(v)));
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
-    // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still stands on it.
+    // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
+    // stands on it.
     const double slack = std::min(std::max(contact.depth, bond_reach), flush * edge);
     for (std::uint32_t k = 0; k < other.size(); ++k) {
-      if (k == contact.side || other.length[k] == 0) continue;
+      if (k == contact.side || other.length(k) == 0) continue;
       if (other.depth(k, at) < -slack) return;
     }
     contact.lever = other.lever(contact.side, at);
@@ -105,9 +101,9 @@ class CornerFinder {
     const auto ends_at = [&](const CornerContact& contact, const CornerContact& other) {
       const Piece& piece = geometry.piece[1 - contact.vertex_body];
       const bool end_of_side = contact.side == other.vertex || piece.next(contact.side) == other.vertex;
-      const Point apart = geometry.piece[0].at[contact.vertex_body == 0 ? contact.vertex : other.vertex] -
-                          geometry.piece[1].at[contact.vertex_body == 1 ? contact.vertex : other.vertex];
-      const double along = std::abs(dot(apart, piece.tangent[contact.side]));
+      const Point apart = geometry.piece[0].at(contact.vertex_body == 0 ? contact.vertex : other.vertex) -
+                          geometry.piece[1].at(contact.vertex_body == 1 ? contact.vertex : other.vertex);
+      const double along = std::abs(dot(apart, piece.tangent(contact.side)));
       return end_of_side && along <= std::max(contact.depth, other.depth);
     };
     return ends_at(p, q) && ends_at(q, p);
@@ -117,28 +113,28 @@ class CornerFinder {
   /// of a flat contact carry α_N L together; at least a twentieth of the edge, for a corner that meets a
   /// corner.
   static double tributary_length(const Piece& own, const Piece& other, std::uint32_t v, std::uint32_t side) {
-    const Point along = other.tangent[side];
-    const std::uint32_t before = previous(own, v);
-    const std::uint32_t edge = dot(own.tangent[before], along) < dot(own.tangent[v], along) ? before : v;
-    const double here = dot(along, own.at[v] - other.at[side]);
-    const Point far_end = own.at[edge == v ? own.next(v) : before];
-    const double there = dot(along, far_end - other.at[side]);
+    const Point along = other.tangent(side);
+    const std::uint32_t before = own.previous(v);
+    const std::uint32_t edge = dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
+    const double here = dot(along, own.at(v) - other.at(side));
+    const Point far_end = own.at(edge == v ? own.next(v) : before);
+    const double there = dot(along, far_end - other.at(side));
     const auto [low, high] = straight_run(other, side);
     const double shadow = std::min(high, std::max(here, there)) - std::max(low, std::min(here, there));
-    return std::max(shadow, 0.1 * own.length[edge]) / 2;
+    return std::max(shadow, 0.1 * own.length(edge)) / 2;
   }
 
   /// The straight stretch of boundary a side belongs to, along its tangent from its start: collinear
   /// neighbours count as one, so that passing from one to the next changes nothing.
   static std::pair<double, double> straight_run(const Piece& piece, std::uint32_t side) {
-    double low = 0, high = piece.length[side];
+    double low = 0, high = piece.length(side);
     for (std::uint32_t k = piece.next(side); k != side && piece.real(k); k = piece.next(k)) {
-      if (dot(piece.tangent[k], piece.tangent[side]) < straight) break;
-      high += piece.length[k];
+      if (dot(piece.tangent(k), piece.tangent(side)) < straight) break;
+      high += piece.length(k);
     }
-    for (std::uint32_t k = previous(piece, side); k != side && piece.real(k); k = previous(piece, k)) {
-      if (dot(piece.tangent[k], piece.tangent[side]) < straight) break;
-      low -= piece.length[k];
+    for (std::uint32_t k = piece.previous(side); k != side && piece.real(k); k = piece.previous(k)) {
+      if (dot(piece.tangent(k), piece.tangent(side)) < straight) break;
+      low -= piece.length(k);
     }
     return {low, high};
   }

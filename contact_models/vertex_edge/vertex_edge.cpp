@@ -5,6 +5,7 @@
 
 #include <talus/library.hpp>
 
+#include <memory>
 #include <stdexcept>
 
 namespace {
@@ -55,9 +56,9 @@ class VertexEdge final : public ContactModel {
   void prepare_interface(double* values) const noexcept override { values[2] = std::tan(values[2]); }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
-    static thread_local Workspace work;
+    static thread_local const auto work = std::make_unique<Workspace>();
     for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
-      evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], work);
+      evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
     }
   }
 
@@ -124,12 +125,11 @@ class VertexEdge final : public ContactModel {
     for (std::uint32_t e = 0; e < entries; ++e) {
       const PiecePair& pieces = batch.piece_pairs[pair.piece_pair_start + e];
       PiecePairGeometry& geometry = work.pieces[e];
-      geometry.piece[0].read(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
-      geometry.piece[1].read(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
-                             pieces.load_start + geometry.piece[0].size());
-      geometry.first_corner[0] = batch.boundaries.piece_start[pieces.a];
-      geometry.first_corner[1] = batch.boundaries.piece_start[pieces.b];
-      const double touching = 1e-12 * shortest(geometry.piece[0], geometry.piece[1]);
+      geometry.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
+      geometry.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
+                                pieces.load_start + geometry.piece[0].size());
+      const double touching =
+          1e-12 * std::min(longest_side(geometry.piece[0]), longest_side(geometry.piece[1]));
       const auto bond_reach = [&](std::uint32_t key) {
         if (batch.bonds_form) return touching;
         const SpringHistory* old = find_old(work.old, key);
@@ -150,9 +150,10 @@ class VertexEdge final : public ContactModel {
     found.resize(kept);
   }
 
-  static double shortest(const Piece& p, const Piece& q) {
-    return std::min(*std::max_element(p.length.begin(), p.length.end()),
-                    *std::max_element(q.length.begin(), q.length.end()));
+  static double longest_side(const Piece& piece) {
+    double longest = 0;
+    for (std::uint32_t i = 0; i < piece.size(); ++i) longest = std::max(longest, piece.length(i));
+    return longest;
   }
 
   /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces.
@@ -188,7 +189,7 @@ class VertexEdge final : public ContactModel {
       const Piece& met = work.pieces[contact.entry].piece[1 - contact.vertex_body];
       if (contact.side != other.vertex && met.next(contact.side) != other.vertex) continue;
       if (const SpringHistory* old = find_old(work.old, other.key)) {
-        const double turned = dot(own.tangent[other.side], met.tangent[contact.side]);
+        const double turned = dot(own.tangent(other.side), met.tangent(contact.side));
         history.elastic = -std::copysign(old->elastic, old->elastic * turned);
         history.intact = old->intact;
       }
@@ -204,8 +205,8 @@ class VertexEdge final : public ContactModel {
     const Piece& other = geometry.piece[1 - contact.vertex_body];
     const Interface interface = interface_of(batch.interfaces, own, other, contact);
     const SpringParameters spring = springs(interface, contact.tributary, history.intact == 1);
-    const Point normal = other.normal(contact.side), along = other.tangent[contact.side];
-    const Point relative = own.velocity[contact.vertex] - other.velocity_at(contact.side, contact.lever);
+    const Point normal = other.normal(contact.side), along = other.tangent(contact.side);
+    const Point relative = own.velocity(contact.vertex) - other.velocity_at(contact.side, contact.lever);
     const double slip = dot(relative, along) * batch.dt;
 
     const double closing = -dot(relative, normal);
@@ -246,9 +247,9 @@ class VertexEdge final : public ContactModel {
     const Point across = contact.share * (force.normal + viscous) * normal;
     const Point shear = contact.share * tangential * along;
     sink.at_corner(own, contact.vertex, across + shear);
-    sink.at_point(other, contact.side, own.at[contact.vertex], -1.0 * (across + shear));
+    sink.at_point(other, contact.side, own.at(contact.vertex), -1.0 * (across + shear));
     const double to_b = contact.vertex_body == 1 ? 1 : -1;
-    seen = {own.at[contact.vertex].x, own.at[contact.vertex].y, to_b * across.x, to_b * across.y,
+    seen = {own.at(contact.vertex).x, own.at(contact.vertex).y, to_b * across.x, to_b * across.y,
             to_b * shear.x,           to_b * shear.y,           contact.depth,   force.slips ? 1.0 : 0.0};
     return true;
   }
@@ -264,11 +265,11 @@ class VertexEdge final : public ContactModel {
   static Interface interface_of(const Interfaces& interfaces, const Piece& own, const Piece& other,
                                 const CornerContact& contact) {
     const std::uint32_t before = contact.vertex == 0 ? own.size() - 1 : contact.vertex - 1;
-    const Point along = other.tangent[contact.side];
+    const Point along = other.tangent(contact.side);
     const std::uint32_t edge =
-        dot(own.tangent[before], along) < dot(own.tangent[contact.vertex], along) ? before : contact.vertex;
+        dot(own.tangent(before), along) < dot(own.tangent(contact.vertex), along) ? before : contact.vertex;
     const std::uint32_t row =
-        interfaces.row[own.surface[edge] * interfaces.surface_count + other.surface[contact.side]];
+        interfaces.row[own.surface(edge) * interfaces.surface_count + other.surface(contact.side)];
     return read(interfaces.value + row * interfaces.parameter_count);
   }
 

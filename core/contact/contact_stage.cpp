@@ -138,8 +138,9 @@ void ContactStage::call_law(const Model& model, const MotionState& motion, const
   std::fill(load_x_.begin(), load_x_.end(), 0.0);
   std::fill(load_y_.begin(), load_y_.end(), 0.0);
   std::fill(pair_reports_.begin(), pair_reports_.end(), PairReport{});
-  const Boundaries boundaries{motion.x.data(),         motion.y.data(),      motion.vx.data(),
-                              motion.vy.data(),        model.surface.data(), model.cut.data(),
+  const Boundaries boundaries{motion.x.data(),         motion.y.data(),         motion.vx.data(),
+                              motion.vy.data(),        motion.tangent_x.data(), motion.tangent_y.data(),
+                              motion.length.data(),    model.surface.data(),    model.cut.data(),
                               model.piece_start.data()};
   const auto evaluate_range = [&](std::size_t begin, std::size_t end) {
     if (begin == end) return;

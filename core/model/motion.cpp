@@ -12,12 +12,14 @@ MotionState::MotionState(const Model& model)
       x(model.reference_x),
       y(model.reference_y),
       vx(x.size(), 0.0),
-      vy(x.size(), 0.0) {
-#ifdef TALUS_AUDIT
-  for (std::vector<double>* buffer : {&x, &y, &vx, &vy}) {
-    std::fill(buffer->begin(), buffer->end(), std::numeric_limits<double>::quiet_NaN());
+      vy(x.size(), 0.0),
+      tangent_x(x.size()),
+      tangent_y(x.size()),
+      length(x.size()) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    move_corners(model, i);
+    measure_sides(model, i);
   }
-#endif
 }
 
 Vec2 displacement(const Motion2& m, Vec2 p) {
@@ -30,15 +32,33 @@ Vec2 velocity(const Motion2& m, Vec2 p) {
 
 void MotionState::move_boundary(const Model& model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = model.bodies[i];
-    const Motion2& motion = bodies[i];
-    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-      const Vec2 reference{model.reference_x[c], model.reference_y[c]};
-      const Vec2 moved = displacement(motion, reference), speed = velocity(motion, reference);
-      x[c] = reference.x + moved.x;
-      y[c] = reference.y + moved.y;
-      vx[c] = speed.x;
-      vy[c] = speed.y;
+    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
+    move_corners(model, i);
+    measure_sides(model, i);
+  }
+}
+
+void MotionState::move_corners(const Model& model, std::size_t body) {
+  const Motion2& motion = bodies[body];
+  for (std::uint32_t c = model.bodies[body].corner_begin; c < model.bodies[body].corner_end; ++c) {
+    const Vec2 reference{model.reference_x[c], model.reference_y[c]};
+    const Vec2 moved = displacement(motion, reference), speed = velocity(motion, reference);
+    x[c] = reference.x + moved.x;
+    y[c] = reference.y + moved.y;
+    vx[c] = speed.x;
+    vy[c] = speed.y;
+  }
+}
+
+void MotionState::measure_sides(const Model& model, std::size_t body) {
+  for (std::uint32_t piece = model.bodies[body].piece_begin; piece < model.bodies[body].piece_end; ++piece) {
+    const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
+    for (std::uint32_t c = begin; c < end; ++c) {
+      const std::uint32_t next = c + 1 == end ? begin : c + 1;
+      const double dx = x[next] - x[c], dy = y[next] - y[c];
+      length[c] = std::sqrt(dx * dx + dy * dy);
+      tangent_x[c] = length[c] > 0 ? dx / length[c] : 0;
+      tangent_y[c] = length[c] > 0 ? dy / length[c] : 0;
     }
   }
 }

@@ -37,9 +37,10 @@ struct MotionState {
 
   std::vector<Motion2> bodies;
   std::vector<BodyForce> forces;
-  std::vector<double> x, y, vx, vy;  ///< [corner] in the frame of the body, m, m/s
+  std::vector<double> x, y, vx, vy;                  ///< [corner] in the frame of the body, m, m/s
+  std::vector<double> tangent_x, tangent_y, length;  ///< [corner] of the side that starts there
 
-  /// Corners follow their bodies (Eq. 11).
+  /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
 
   struct Speeds {
@@ -47,6 +48,10 @@ struct MotionState {
     double relative = 0;  ///< m/s, bound of the difference between any two corners
   };
   Speeds speeds() const;
+
+ private:
+  void move_corners(const Model& model, std::size_t body);
+  void measure_sides(const Model& model, std::size_t body);
 };
 
 Vec2 displacement(const Motion2& motion, Vec2 reference);

@@ -8,8 +8,9 @@
 
 namespace talus {
 
-/// What happened to the energies at one velocity update, J/m. With K_n = ½ v₋ᵀ M v₊ a force f_n works over
-/// half of the step behind and half of the step ahead; the latter belongs to the ledger of t_{n+1}.
+/// What happened to the energies at one velocity update, J/m. With K_n = ½ v₋ᵀ M v₊, v₋ and v₊ as far before
+/// t_n as after it, a force f_n works over half of the step behind and half of the step ahead; the latter
+/// belongs to the ledger of t_{n+1}.
 struct AccelerationWork {
   double kinetic = 0;                                 ///< K_n
   double damping_loss = 0, damping_loss_ahead = 0;    ///< by mass-proportional damping

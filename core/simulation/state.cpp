@@ -49,7 +49,11 @@ void Simulation::State::step(double next_end) {
   }
   forces();
   check_step();
-  if (!settling) remember_deepest();
+  if (settling) return;
+  remember_deepest();
+  // The corners of a body that spins differ in speed by its spin times its width or more.
+  turned += dt_behind * speeds.relative / model.smallest_width;
+  if (turned > 1) bring_rotation_up_to_date();
 }
 
 void Simulation::State::begin(double end) {
@@ -190,8 +194,9 @@ void Simulation::State::warn_of_initial_overlap() {
       place(totals.deepest_a), place(totals.deepest_b), totals.penetration));
 }
 
-/// Follows each body through full turns: the angle since the last output time is small.
+/// Follows each body through full turns: the angle since the last time is less than half of one.
 void Simulation::State::bring_rotation_up_to_date() {
+  turned = 0;
   for (std::size_t i = 0; i < rotation.size(); ++i) {
     const Matrix2 &now = motion.bodies[i].h, &last = last_turn[i];
     // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.

@@ -55,9 +55,16 @@ struct Springs {
   Eigen::MatrixXd stiffness, damping;
 };
 
+/// Surface classes of the bodies that a body can meet, and by what factor its springs count for the motion of
+/// the body it meets.
+struct Meetings {
+  std::vector<char> surfaces;
+  double stiffness_factor = 1, damping_factor = 1;
+};
+
 /// The stiffest springs a side can meet on any other body, lumped at its two ends.
 void add_side(Springs& springs, const Model& model, const Body& body, std::uint32_t from, std::uint32_t to,
-              const ContactStage& contacts, const std::vector<char>& met, double factor) {
+              const ContactStage& contacts, const Meetings& met) {
   const Vec2 start{model.reference_x[from], model.reference_y[from]};
   const Vec2 end{model.reference_x[to], model.reference_y[to]};
   const Eigen::Vector2d side(end.x - start.x, end.y - start.y);
@@ -66,7 +73,7 @@ void add_side(Springs& springs, const Model& model, const Body& body, std::uint3
   ContactStiffness most{};
   const Interfaces& interfaces = contacts.interfaces();
   for (std::uint32_t other = 0; other < interfaces.surface_count; ++other) {
-    if (!met[other]) continue;
+    if (!met.surfaces[other]) continue;
     const std::uint32_t row = interfaces.row[model.surface[from] * interfaces.surface_count + other];
     const ContactStiffness here = contacts.law()->stiffness(
         interfaces.value + std::size_t{row} * interfaces.parameter_count, length / 2);
@@ -84,10 +91,10 @@ void add_side(Springs& springs, const Model& model, const Body& body, std::uint3
   for (const Vec2 corner : {start, end}) {
     const Shape shape = shape_at(body.kinematics, corner);
     const Eigen::VectorXd n = shape.transpose() * across, t = shape.transpose() * along;
-    const Eigen::MatrixXd normal = factor * most.normal * n * n.transpose();
-    const Eigen::MatrixXd tangential = factor * most.tangential * t * t.transpose();
-    springs.stiffness += normal + tangential;
-    springs.damping += normal_lag * normal + tangential_lag * tangential;
+    const Eigen::MatrixXd normal = most.normal * n * n.transpose();
+    const Eigen::MatrixXd tangential = most.tangential * t * t.transpose();
+    springs.stiffness += met.stiffness_factor * (normal + tangential);
+    springs.damping += met.damping_factor * (normal_lag * normal + tangential_lag * tangential);
   }
 }
 
@@ -117,14 +124,8 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& 
   return std::max(0.0, solver.eigenvalues().maxCoeff());
 }
 
-/// Surface classes of the bodies that a body can meet, and by what factor its contacts count.
-struct Meetings {
-  std::vector<char> surfaces;
-  double factor = 1;
-};
-
 Meetings meetings(const Model& model, std::uint32_t index, std::size_t surface_count) {
-  Meetings result{std::vector<char>(surface_count, 0), 1};
+  Meetings result{std::vector<char>(surface_count, 0)};
   for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
     if (other == index) continue;
     const Body& body = model.bodies[other];
@@ -132,7 +133,10 @@ Meetings meetings(const Model& model, std::uint32_t index, std::size_t surface_c
       if (model.surface[c] != internal_side) result.surfaces[model.surface[c]] = 1;
     }
     if (model.moves(other)) {
-      result.factor = std::max(result.factor, 1 + std::sqrt(model.bodies[index].mass / body.mass));
+      const double ratio = model.bodies[index].mass / body.mass;
+      result.stiffness_factor = std::max(result.stiffness_factor, 1 + std::sqrt(ratio));
+      // c = 2ζ√(k m_a m_b/(m_a + m_b)) split alike: (1 + √r)/√(1 + r) is at most √2.
+      result.damping_factor = std::sqrt(2.0);
     }
   }
   return result;
@@ -173,7 +177,7 @@ CriticalStep vote(const Scene& scene, const Model& model, const ContactStage& co
       for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c) {
         if (model.surface[c] == internal_side) continue;
         const std::uint32_t next = c + 1 == model.piece_start[piece + 1] ? model.piece_start[piece] : c + 1;
-        add_side(springs, model, body, c, next, contacts, met.surfaces, met.factor);
+        add_side(springs, model, body, c, next, contacts, met);
       }
     }
   }

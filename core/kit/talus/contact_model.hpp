@@ -11,10 +11,14 @@ inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
 /// a counter-clockwise ring of corners; side i of a piece runs from its corner i to the next. Positions are
 /// in the frame of the body: relative to the body's reference centre, displaced. All arrays are read-only.
 struct Boundaries {
-  const double* x;               ///< [corner] m
-  const double* y;               ///< [corner] m
-  const double* vx;              ///< [corner] m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
-  const double* vy;              ///< [corner] m/s
+  const double* x;   ///< [corner] m
+  const double* y;   ///< [corner] m
+  const double* vx;  ///< [corner] m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
+  const double* vy;  ///< [corner] m/s
+  const double*
+      tangent_x;  ///< [corner] unit tangent of the side that starts here; 0 for a side without length
+  const double* tangent_y;
+  const double* length;          ///< [corner] m, of the side that starts here
   const std::uint32_t* surface;  ///< [corner] surface class of the side that starts here, or internal_side
   const std::uint32_t* cut;      ///< [corner] of an internal side: the number of its cut within the body
   const std::uint32_t* piece_start;  ///< [piece + 1] first corner of each piece

@@ -13,14 +13,10 @@ class OverlapFinder {
   const Polygon& find(const Piece& a, const Piece& b) {
     polygon_.clear();
     if (separated(a, b)) return polygon_;
-    for (std::uint32_t j = 0; j < b.size(); ++j) polygon_.push_back({b.at[j], {1, j}});
+    polygon_.make_room(b.size());
+    for (std::uint32_t j = 0; j < b.size(); ++j) polygon_.append({b.at(j), {1, j}});
     for (std::uint32_t k = 0; k < a.size() && !polygon_.empty(); ++k) {
-      if (a.length[k] == 0) continue;
-      const auto height = [&](Point p) { return -a.depth(k, p); };
-      if (std::all_of(polygon_.begin(), polygon_.end(), [&](const Corner& c) { return height(c.at) <= 0; }))
-        continue;
-      clip(polygon_, clipped_, {0, k}, height);
-      polygon_.swap(clipped_);
+      if (a.length(k) > 0) clipper_.clip(polygon_, {0, k}, [&](Point p) { return -a.depth(k, p); });
     }
     return polygon_;
   }
@@ -31,15 +27,20 @@ class OverlapFinder {
 
   static bool one_way(const Piece& piece, const Piece& other) {
     for (std::uint32_t k = 0; k < piece.size(); ++k) {
-      if (piece.length[k] > 0 &&
-          std::all_of(other.at.begin(), other.at.end(), [&](Point p) { return piece.depth(k, p) <= 0; })) {
-        return true;
-      }
+      if (piece.length(k) > 0 && all_outside(piece, k, other)) return true;
     }
     return false;
   }
 
-  Polygon polygon_, clipped_;
+  static bool all_outside(const Piece& piece, std::uint32_t side, const Piece& other) {
+    for (std::uint32_t i = 0; i < other.size(); ++i) {
+      if (piece.depth(side, other.at(i)) > 0) return false;
+    }
+    return true;
+  }
+
+  Polygon polygon_;
+  Clipper clipper_;
 };
 
 /// Divides an overlap into the cells nearest to each side of the master (§3.2.1, Fig. 4). Between sides that
@@ -52,7 +53,7 @@ class CellDivider {
   void divide(const Piece& master, const Polygon& overlap, const Visit& visit) {
     find_competitors(master, overlap);
     for (const std::uint32_t k : competitors_) {
-      cell_ = overlap;
+      cell_.assign(overlap);
       for (const std::uint32_t j : competitors_) {
         if (j == k || cell_.empty()) continue;
         cut_towards(master, k, j);
@@ -89,26 +90,20 @@ class CellDivider {
   void cut_towards(const Piece& master, std::uint32_t k, std::uint32_t j) {
     const bool before = master.next(k) == j, after = master.next(j) == k;
     if (before || after) {
-      const Point vertex = master.at[before ? j : k];
-      const Point along = (before ? 1.0 : -1.0) * (master.tangent[k] + master.tangent[j]);
-      cut([&](Point p) { return dot(along, p - vertex); });
+      const Point vertex = master.at(before ? j : k);
+      const Point along = (before ? 1.0 : -1.0) * (master.tangent(k) + master.tangent(j));
+      clipper_.clip(cell_, division_line, [&](Point p) { return dot(along, p - vertex); });
       return;
     }
-    const Point apart = master.tangent[k] - master.tangent[j];
+    const Point apart = master.tangent(k) - master.tangent(j);
     if (dot(apart, apart) < 1e-24) return;  // one line: the sides between them divide it
-    cut([&](Point p) { return master.depth(k, p) - master.depth(j, p); });
-  }
-
-  template <class Height>
-  void cut(const Height& height) {
-    if (std::all_of(cell_.begin(), cell_.end(), [&](const Corner& c) { return height(c.at) <= 0; })) return;
-    clip(cell_, clipped_, division_line, height);
-    cell_.swap(clipped_);
+    clipper_.clip(cell_, division_line, [&](Point p) { return master.depth(k, p) - master.depth(j, p); });
   }
 
   std::vector<std::uint32_t> competitors_;
   std::vector<double> nearest_;
-  Polygon cell_, clipped_;
+  Polygon cell_;
+  Clipper clipper_;
 };
 
 }  // namespace talus::overlap

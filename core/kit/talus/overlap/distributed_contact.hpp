@@ -162,7 +162,7 @@ class DistributedContact {
                                    std::uint32_t first_segment) const {
     const auto parameters_with = [&](std::uint32_t slave_side) {
       const std::uint32_t row =
-          interfaces.row[master.surface[side] * interfaces.surface_count + slave.surface[slave_side]];
+          interfaces.row[master.surface(side) * interfaces.surface_count + slave.surface(slave_side)];
       return law.interface(interfaces.value + row * interfaces.parameter_count);
     };
     double total = 0;

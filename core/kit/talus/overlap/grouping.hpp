@@ -30,12 +30,12 @@ class OverlapGroups {
       const PiecePair& pieces = batch.piece_pairs[i];
       if (count_ == pool_.size()) pool_.emplace_back();
       Overlap& overlap = pool_[count_];
-      overlap.piece[0].read(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
-      overlap.piece[1].read(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
-                            pieces.load_start + overlap.piece[0].size());
+      overlap.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
+      overlap.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
+                               pieces.load_start + overlap.piece[0].size());
       const Polygon& polygon = finder_.find(overlap.piece[0], overlap.piece[1]);
       if (polygon.empty() || !(area_centroid(polygon).area > 0)) continue;
-      overlap.polygon = polygon;
+      overlap.polygon.assign(polygon);
       ++count_;
     }
     return count_;
@@ -66,7 +66,7 @@ class OverlapGroups {
         high = {std::max(high.x, corner.at.x), std::max(high.y, corner.at.y)};
       }
       for (const Piece& piece : overlap.piece) {
-        for (const Point velocity : piece.velocity) speed = std::max(speed, length(velocity));
+        for (std::uint32_t i = 0; i < piece.size(); ++i) speed = std::max(speed, length(piece.velocity(i)));
       }
     }
     const double size = length(high - low);
@@ -97,7 +97,7 @@ class OverlapGroups {
       for (std::size_t j = 0; j < q.polygon.size(); ++j) {
         const SideLabel other = q.polygon[j].side;
         if (!is_cut(q, other) || other.body != side.body) continue;
-        if (p.piece[side.body].cut[side.index] != q.piece[side.body].cut[other.index]) continue;
+        if (p.piece[side.body].cut(side.index) != q.piece[side.body].cut(other.index)) continue;
         if (stretches_meet(p, i, q, j)) return true;
       }
     }
@@ -105,12 +105,12 @@ class OverlapGroups {
   }
 
   static bool is_cut(const Overlap& overlap, SideLabel side) {
-    return overlap.piece[side.body].surface[side.index] == internal_side;
+    return side.body < 2 && overlap.piece[side.body].is_cut(side.index);
   }
 
   static bool stretches_meet(const Overlap& p, std::size_t i, const Overlap& q, std::size_t j) {
     const SideLabel side = p.polygon[i].side;
-    const Point along = p.piece[side.body].tangent[side.index];
+    const Point along = p.piece[side.body].tangent(side.index);
     const auto interval = [&](const Polygon& polygon, std::size_t k) {
       const double first = dot(along, polygon[k].at),
                    second = dot(along, polygon[k + 1 == polygon.size() ? 0 : k + 1].at);

@@ -5,46 +5,53 @@
 
 namespace talus::overlap {
 
-/// A convex piece of a body in the frame of its pair, with what the geometry asks of its sides.
-struct Piece {
-  std::vector<Point> at;        ///< [corner] m
-  std::vector<Point> velocity;  ///< [corner] m/s
-  std::vector<Point> tangent;   ///< [side] unit, from corner i to the next
-  std::vector<double> length;   ///< [side] m
-  const std::uint32_t* surface = nullptr;
-  const std::uint32_t* cut = nullptr;
-  std::uint32_t load_start = 0;  ///< first entry of this piece in ContactLoads::fx
+/// A convex piece of a body seen in the frame of its pair: a view of the host's arrays.
+class Piece {
+ public:
+  Piece() = default;
+  Piece(const Boundaries& boundaries, std::uint32_t piece, Point offset, std::uint32_t first_load)
+      : boundaries_(&boundaries),
+        first_(boundaries.piece_start[piece]),
+        size_(boundaries.piece_start[piece + 1] - first_),
+        offset_(offset),
+        load_start(first_load) {}
 
-  std::uint32_t size() const { return static_cast<std::uint32_t>(at.size()); }
-  std::uint32_t next(std::uint32_t i) const { return i + 1 == size() ? 0 : i + 1; }
+  std::uint32_t size() const { return size_; }
+  std::uint32_t first_corner() const { return first_; }  ///< number among all corners
+  std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
+  std::uint32_t previous(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
+
+  Point at(std::uint32_t i) const {
+    return {boundaries_->x[first_ + i] + offset_.x, boundaries_->y[first_ + i] + offset_.y};
+  }
+  Point velocity(std::uint32_t i) const { return {boundaries_->vx[first_ + i], boundaries_->vy[first_ + i]}; }
+  /// Unit tangent of side i, from corner i to the next.
+  Point tangent(std::uint32_t i) const {
+    return {boundaries_->tangent_x[first_ + i], boundaries_->tangent_y[first_ + i]};
+  }
+  Point normal(std::uint32_t side) const { return {tangent(side).y, -tangent(side).x}; }  ///< outward
+  double length(std::uint32_t side) const { return boundaries_->length[first_ + side]; }
+  std::uint32_t surface(std::uint32_t side) const { return boundaries_->surface[first_ + side]; }
+  std::uint32_t cut(std::uint32_t side) const { return boundaries_->cut[first_ + side]; }
+  bool is_cut(std::uint32_t side) const { return surface(side) == internal_side; }
   /// A side that carries load: boundary, with a length.
-  bool real(std::uint32_t side) const { return surface[side] != internal_side && length[side] > 0; }
-  Point normal(std::uint32_t side) const { return {tangent[side].y, -tangent[side].x}; }  ///< outward
+  bool real(std::uint32_t side) const { return !is_cut(side) && length(side) > 0; }
+
   /// Distance of a point behind the line of a side, m; positive inside.
-  double depth(std::uint32_t side, Point p) const { return cross(tangent[side], p - at[side]); }
+  double depth(std::uint32_t side, Point p) const { return cross(tangent(side), p - at(side)); }
   /// Position of the foot of a point along a side: 0 at its start, 1 at its end.
-  double lever(std::uint32_t side, Point p) const { return dot(tangent[side], p - at[side]) / length[side]; }
+  double lever(std::uint32_t side, Point p) const { return dot(tangent(side), p - at(side)) / length(side); }
   Point velocity_at(std::uint32_t side, double lever_arm) const {
-    return (1 - lever_arm) * velocity[side] + lever_arm * velocity[next(side)];
+    return (1 - lever_arm) * velocity(side) + lever_arm * velocity(next(side));
   }
 
-  void read(const Boundaries& boundaries, std::uint32_t piece, Point offset, std::uint32_t first_load) {
-    const std::uint32_t begin = boundaries.piece_start[piece], end = boundaries.piece_start[piece + 1];
-    const std::uint32_t n = end - begin;
-    at.resize(n), velocity.resize(n), tangent.resize(n), length.resize(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      at[i] = Point{boundaries.x[begin + i], boundaries.y[begin + i]} + offset;
-      velocity[i] = {boundaries.vx[begin + i], boundaries.vy[begin + i]};
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const Point side = at[i + 1 == n ? 0 : i + 1] - at[i];
-      length[i] = overlap::length(side);
-      tangent[i] = length[i] > 0 ? (1 / length[i]) * side : Point{0, 0};
-    }
-    surface = boundaries.surface + begin;
-    cut = boundaries.cut + begin;
-    load_start = first_load;
-  }
+ private:
+  const Boundaries* boundaries_ = nullptr;
+  std::uint32_t first_ = 0, size_ = 0;
+  Point offset_{0, 0};
+
+ public:
+  std::uint32_t load_start = 0;  ///< first entry of this piece in ContactLoads::fx
 };
 
 /// Adds loads at the corners of pieces.
@@ -74,7 +81,7 @@ struct LoadSink {
 
   /// A moment (counter-clockwise, N) as two opposite forces across a side.
   void couple(const Piece& piece, std::uint32_t side, double moment) const {
-    const Point force = (-moment / piece.length[side]) * piece.normal(side);
+    const Point force = (-moment / piece.length(side)) * piece.normal(side);
     at_corner(piece, piece.next(side), force);
     at_corner(piece, side, -1.0 * force);
   }

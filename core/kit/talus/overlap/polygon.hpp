@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace talus::overlap {
@@ -43,29 +44,73 @@ struct Corner {
   SideLabel side;
 };
 
-using Polygon = std::vector<Corner>;  // convex, counter-clockwise
+/// A convex polygon, counter-clockwise, in memory that is kept: nothing is allocated once it has grown.
+class Polygon {
+ public:
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
+  Corner& operator[](std::size_t i) { return corners_[i]; }
+  const Corner& operator[](std::size_t i) const { return corners_[i]; }
+  const Corner* begin() const { return corners_.data(); }
+  const Corner* end() const { return corners_.data() + size_; }
+  std::size_t next(std::size_t i) const { return i + 1 == size_ ? 0 : i + 1; }
 
-/// Keeps the part of `from` where height(point) ≤ 0; height is affine. The side along the cut gets `label`.
-template <class Height>
-void clip(const Polygon& from, Polygon& to, SideLabel label, const Height& height) {
-  to.clear();
-  const std::size_t n = from.size();
-  if (n == 0) return;
-  double h = height(from[0].at);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Corner& here = from[i];
-    const Corner& next = from[i + 1 == n ? 0 : i + 1];
-    const double h_next = height(next.at);
-    const bool inside = h <= 0, next_inside = h_next <= 0;
-    if (inside) to.push_back(here);
-    if (inside != next_inside) {
-      const Point crossing = here.at + (h / (h - h_next)) * (next.at - here.at);
-      to.push_back({crossing, inside ? label : here.side});
-    }
-    h = h_next;
+  void make_room(std::size_t corners) {
+    if (corners_.size() < corners) corners_.resize(2 * corners);
   }
-  if (to.size() < 3) to.clear();
-}
+  void append(const Corner& corner) { corners_[size_++] = corner; }  ///< after make_room
+  void assign(const Polygon& other) {
+    make_room(other.size_);
+    size_ = other.size_;
+    for (std::size_t i = 0; i < size_; ++i) corners_[i] = other.corners_[i];
+  }
+  void swap(Polygon& other) {
+    corners_.swap(other.corners_);
+    std::swap(size_, other.size_);
+  }
+
+ private:
+  std::vector<Corner> corners_;  // capacity; the polygon is the first size_ of them
+  std::size_t size_ = 0;
+};
+
+/// Cuts polygons by lines; keeps its own buffers.
+class Clipper {
+ public:
+  /// Keeps the part of `polygon` where height(point) ≤ 0; height is affine. The side along the cut gets
+  /// `label`.
+  template <class Height>
+  void clip(Polygon& polygon, SideLabel label, const Height& height) {
+    const std::size_t n = polygon.size();
+    if (heights_.size() < n) heights_.resize(2 * n);
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      heights_[i] = height(polygon[i].at);
+      outside += heights_[i] <= 0 ? 0 : 1;
+    }
+    if (outside == 0) return;
+    clipped_.clear();
+    clipped_.make_room(n + 2);
+    for (std::size_t i = 0; i < n && outside < n; ++i) {
+      const std::size_t j = polygon.next(i);
+      const Corner& here = polygon[i];
+      const double h = heights_[i], h_next = heights_[j];
+      const bool inside = h <= 0, next_inside = h_next <= 0;
+      if (inside) clipped_.append(here);
+      if (inside != next_inside) {
+        clipped_.append(
+            {here.at + (h / (h - h_next)) * (polygon[j].at - here.at), inside ? label : here.side});
+      }
+    }
+    if (clipped_.size() < 3) clipped_.clear();
+    polygon.swap(clipped_);
+  }
+
+ private:
+  Polygon clipped_;
+  std::vector<double> heights_;
+};
 
 struct AreaCentroid {
   double area;
