@@ -3,6 +3,7 @@
 #include "exit_code.hpp"
 #include "output/input_error.hpp"
 #include "scene/read.hpp"
+#include "scene_options.hpp"
 #include "simulation/simulation.hpp"
 #include "terminal.hpp"
 
@@ -95,11 +96,11 @@ int report(const UsageError& problem) {
   return exit_code::bad_input;
 }
 
-int report(const SceneError& problem) {
+int report(const SceneError& problem, int code) {
   for (const Mistake& mistake : problem.mistakes) print_error(mistake.text());
   fmt::print(stderr, "{} mistake{} in the scene\n", problem.mistakes.size(),
              problem.mistakes.size() == 1 ? "" : "s");
-  return exit_code::bad_input;
+  return code;
 }
 
 int report(const std::exception& problem, int code) {
@@ -117,8 +118,10 @@ int guarded(const Words& words) {
     return code;
   } catch (const UsageError& problem) {
     return report(problem);
+  } catch (const LibrariesNotAllowed& problem) {
+    return report(problem, exit_code::plugin_refused);
   } catch (const SceneError& problem) {
-    return report(problem);
+    return report(problem, exit_code::bad_input);
   } catch (const InputError& problem) {
     return report(problem, exit_code::bad_input);
   } catch (const PluginError& problem) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace talus {
 
 namespace po = boost::program_options;
@@ -68,14 +70,26 @@ std::vector<std::string> named_libraries(const std::filesystem::path& scene_file
   return names;
 }
 
+namespace {
+
+/// A path in "plugins" is a mistake only for want of permission; what is no path at all is none of these.
+bool names_a_library(const std::filesystem::path& file, const SceneError& problem) {
+  if (named_libraries(file).empty()) return false;
+  return std::any_of(problem.mistakes.begin(), problem.mistakes.end(),
+                     [](const Mistake& mistake) { return mistake.pointer.starts_with("/plugins/"); });
+}
+
+}  // namespace
+
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
                     const std::vector<Override>& overrides, bool allow_plugins) {
   try {
     return read_scene(file, registry, {overrides, allow_plugins});
-  } catch (const SceneError&) {
+  } catch (const SceneError& problem) {
     for (const RefusedLibrary& refused : registry.refused) {
       print_warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
     }
+    if (!allow_plugins && names_a_library(file, problem)) throw LibrariesNotAllowed(problem.mistakes);
     throw;
   }
 }

@@ -24,7 +24,14 @@ int threads_of(const Usage& usage, const boost::program_options::variables_map& 
 /// Libraries that a scene file names by path, as far as it can be read at all.
 std::vector<std::string> named_libraries(const std::filesystem::path& scene_file);
 
-/// Reads the scene. Warns of libraries that were refused when a mistake may come from them.
+/// Mistakes of a scene, one of which is that it names libraries which nobody allowed.
+class LibrariesNotAllowed : public SceneError {
+ public:
+  using SceneError::SceneError;
+};
+
+/// Reads the scene. Throws LibrariesNotAllowed where it needs --allow-plugins. Warns of libraries that were
+/// refused when a mistake may come from them.
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
                     const std::vector<Override>& overrides, bool allow_plugins);
 

@@ -114,6 +114,7 @@ TEST_CASE("a run that is interrupted leaves whole files", "[apps][run]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());
   for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(scratch / "out");  // the signal waits for the first frame
     const Call call = call_and_signal(scratch.folder(),
                                       {"run", "small.json", "--overwrite", "--set", "/time/end=1e5", "--set",
                                        "/output/frames=100", "--set", "/output/history=1"},
