@@ -7,15 +7,16 @@ namespace talus {
 
 namespace {
 
-bool interrupted = false;
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
 extern "C" void raise_flag(int) {
-  std::atomic_ref<bool>(interrupted).store(true, std::memory_order_relaxed);
+  interrupted.store(true, std::memory_order_relaxed);
 }
 
 }  // namespace
 
-const bool* watch_for_interrupts() {
+const std::atomic<bool>* watch_for_interrupts() {
   struct sigaction action {};
   action.sa_handler = raise_flag;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;

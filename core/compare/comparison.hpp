@@ -4,6 +4,7 @@
 #include "compare/variation.hpp"
 #include "output/recorded_run.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -29,7 +30,7 @@ struct ComparisonOrder {
   bool neighbour_skin = true;
   std::optional<ReferenceFile> reference;
   std::vector<double> moments;  ///< s, times at which deviations are asked for
-  const bool* interrupted = nullptr;
+  const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double share)> progress;  ///< of all runs together; never two calls at a time
 };
 

@@ -86,6 +86,11 @@ double torque(const Motion2& m, const BodyForce& f) {
   return (1 + m.h.xx) * q.yx + m.h.xy * q.yy - m.h.yx * q.xx - (1 + m.h.yy) * q.xy;
 }
 
+Matrix2 rotation_of(const Matrix2& h) {
+  const double c = 2 + h.xx + h.yy, s = h.yx - h.xy, size = std::sqrt(c * c + s * s);
+  return {c / size - 1, -s / size, s / size, c / size - 1};
+}
+
 Matrix2 turned(const Matrix2& h, double angle) {
   const double a2 = angle * angle;
   const double sine = angle * (1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42)));

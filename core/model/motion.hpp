@@ -60,6 +60,9 @@ Vec2 velocity(const Motion2& motion, Vec2 reference);
 /// ΣF r × F of a body force about the displaced centroid, N.
 double torque(const Motion2& motion, const BodyForce& force);
 
+/// R − I, R the rotation of the polar decomposition of I + H.
+Matrix2 rotation_of(const Matrix2& h);
+
 /// Turns H = R − I by an angle, without trigonometry in the step: series to the seventh order, then
 /// normalised.
 Matrix2 turned(const Matrix2& h, double angle);

@@ -70,7 +70,7 @@ void settle(Simulation& simulation, const RunOrder& order, RunResult& result) {
   if (order.before_settling) order.before_settling(simulation);
   if (!wants_to_stop(order)) {
     const Stopwatch watch(order.clock);
-    simulation.settle();
+    simulation.settle(order.interrupted);
     result.settling += watch.elapsed();
   }
   if (order.after_settling) order.after_settling(simulation);

@@ -5,6 +5,7 @@
 #include "scene/read.hpp"
 #include "simulation/simulation.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -26,7 +27,7 @@ struct RunOrder {
   RunSettings settings;
   CpuClock clock = CpuClock::process;
   std::function<void(Simulation&)> before_settling, after_settling;  ///< called even if nothing settles
-  const bool* interrupted = nullptr;                                 ///< polled once per step
+  const std::atomic<bool>* interrupted = nullptr;                    ///< polled once per step
   std::function<void(double time)> progress;                         ///< called at each output time
 };
 

@@ -48,13 +48,12 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
 /// Puts the prescribed parts of the motion in place and books the work of the reactions. Moving the centroid
 /// and turning about it are orthogonal in the mass, so taking one out leaves the others as they are.
 void impose_supports(const Body& body, double density, const Support& support,
-                     const StepConditions& conditions, const Motion2& before, Motion2& after,
+                     const StepConditions& conditions, Update update, const Motion2& before, Motion2& after,
                      AccelerationWork& work) {
-  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const auto impose = [&](const std::optional<double>& wanted, double mass, double value,
                           double value_before) {
     const double target = conditions.supports_driven ? *wanted : 0;
-    const double reaction = mass * (target - value) / dt;
+    const double reaction = mass * (target - value) / update.gain;
     work.external_work += reaction * value_before * conditions.dt_behind / 2;
     work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
     return target;
@@ -130,7 +129,7 @@ AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene
     Motion2& now = motion.bodies[i];
     const Motion2 before = now;
     accelerate_freely(body, motion.forces[i], conditions, update, now);
-    impose_supports(body, density, scene[i].support, conditions, before, now, work);
+    impose_supports(body, density, scene[i].support, conditions, update, before, now, work);
     Motion2& at_step = at_time[i];
     at_step = velocity_at_step(before, now, conditions);
     work.kinetic += kinetic_at_step(body, density, conditions, before, at_step, now);

@@ -19,10 +19,11 @@ const Scene& Simulation::scene() const {
 
 void Simulation::take_geometry(const Geometry& geometry) {
   const double* from = geometry.unknowns.data();
-  for (Motion2& body : state_->motion.bodies) {
+  for (std::size_t i = 0; i < state_->motion.bodies.size(); ++i, from += 6) {
+    Motion2& body = state_->motion.bodies[i];
     body.u = {from[0], from[1]};
     body.h = {from[2], from[3], from[4], from[5]};
-    from += 6;
+    if (state_->model.bodies[i].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
   }
 }
 
@@ -36,19 +37,22 @@ Geometry Simulation::geometry() const {
   return geometry;
 }
 
-void Simulation::settle() {
+void Simulation::settle(const std::atomic<bool>* interrupted) {
   State& s = *state_;
   if (!s.scene.settle) return;
   s.settling = true;
   s.begin(s.scene.settle->duration);
-  while (s.time < s.scene.settle->duration) s.step(s.scene.settle->duration);
+  while (s.time < s.scene.settle->duration) {
+    s.step(s.scene.settle->duration);
+    if (interrupted != nullptr && *interrupted) break;
+  }
   s.settling = false;
   for (Motion2& body : s.motion.bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
   s.time = 0;
   s.ledger.reset();
 }
 
-bool Simulation::advance(const bool* interrupted) {
+bool Simulation::advance(const std::atomic<bool>* interrupted) {
   State& s = *state_;
   const double interval = s.scene.output.history, end = s.scene.time.end;
   const auto output_time = [&](std::uint64_t number) {

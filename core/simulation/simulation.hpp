@@ -2,6 +2,7 @@
 
 #include "scene/scene.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -80,11 +81,12 @@ class Simulation {
   Geometry geometry() const;
 
   /// The settle stage, if the scene asks for one; friction held stuck, then velocities and clock to zero.
-  void settle();
+  /// `interrupted`, polled once per step, ends it early.
+  void settle(const std::atomic<bool>* interrupted = nullptr);
 
   /// Runs to the next output time (the first call: to t = 0). False when the end was reached before.
   /// `interrupted`, polled once per step, ends the call early with true. Throws NumericalTrouble.
-  bool advance(const bool* interrupted = nullptr);
+  bool advance(const std::atomic<bool>* interrupted = nullptr);
 
   double time() const;             ///< s
   bool history_due() const;        ///< whether the present output time is one of the history

@@ -58,6 +58,8 @@ void Simulation::State::step(double next_end) {
 
 void Simulation::State::begin(double end) {
   dt_behind = 0;
+  motion.move_boundary(model);
+  speeds = motion.speeds();  // the first step is bounded by them, too
   make_plan(end);
   forces();
   check_step();

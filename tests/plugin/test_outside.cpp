@@ -22,6 +22,10 @@ struct TwoSquares {
   std::array<std::uint32_t, 3> piece_start{0, 4, 8};
   std::uint32_t row = 0;
   double stiffness = 3e6;
+  static constexpr double half = 0.70710678118654752;  // cosine of 45 degrees
+  std::array<double, 8> tangent_x{1, 0, -1, 0, half, -half, -half, half};
+  std::array<double, 8> tangent_y{0, 1, 0, -1, half, half, -half, -half};
+  std::array<double, 8> length{1, 1, 1, 1, 2 * half, 2 * half, 2 * half, 2 * half};
   PiecePair pieces{0, 1, 0};
   BodyPair pair{};
   std::array<double, 8> fx{}, fy{};
@@ -41,8 +45,16 @@ struct TwoSquares {
     fx = fy = {};
     report = {};
     ContactBatch batch{};
-    batch.boundaries = {x.data(),       y.data(),   v.data(),          v.data(),
-                        surface.data(), cut.data(), piece_start.data()};
+    batch.boundaries = {.x = x.data(),
+                        .y = y.data(),
+                        .vx = v.data(),
+                        .vy = v.data(),
+                        .tangent_x = tangent_x.data(),
+                        .tangent_y = tangent_y.data(),
+                        .length = length.data(),
+                        .surface = surface.data(),
+                        .cut = cut.data(),
+                        .piece_start = piece_start.data()};
     batch.interfaces = {&row, &stiffness, 1, 1};
     batch.pairs = &pair;
     batch.piece_pairs = &pieces;
