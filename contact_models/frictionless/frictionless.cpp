@@ -36,22 +36,11 @@ class Frictionless final : public ContactModel {
   }
 };
 
-constexpr Component components[] = {{
-    ComponentKind::contact_model,
-    "frictionless",
-    "The overlap-area law without its tangential part: no friction, no history.",
-    nullptr,
-    0,
-    interface_parameters,
-    std::size(interface_parameters),
-    create_component<ContactModel, Frictionless>,
-    destroy_component<ContactModel>,
-}};
+constexpr Component components[] = {contact_model<Frictionless>(
+    "frictionless", "The overlap-area law without its tangential part: no friction, no history.", {},
+    interface_parameters)};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "frictionless",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("frictionless", "0.1.0", "the talus authors", components);

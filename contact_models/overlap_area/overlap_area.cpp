@@ -13,7 +13,7 @@ using namespace talus;
 constexpr Parameter parameters[] = {
     choice("friction_rule", "return_mapping|paper", 0,
            "Elastic trial and return to the Coulomb limit, or Table 1 of the paper to the letter (V := 0 at "
-           "slip)."),
+           "slip, no tangential dashpot)."),
 };
 
 constexpr Parameter interface_parameters[] = {
@@ -57,22 +57,12 @@ class OverlapArea final : public ContactModel {
   overlap::FrictionRule rule_;
 };
 
-constexpr Component components[] = {{
-    ComponentKind::contact_model,
+constexpr Component components[] = {contact_model<OverlapArea>(
     "overlap_area",
     "Contact by overlap area: pressure by distance to the nearest master side, friction per overlap.",
-    parameters,
-    std::size(parameters),
-    interface_parameters,
-    std::size(interface_parameters),
-    create_component<ContactModel, OverlapArea>,
-    destroy_component<ContactModel>,
-}};
+    parameters, interface_parameters)};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "overlap_area",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("overlap_area", "0.1.0", "the talus authors", components);

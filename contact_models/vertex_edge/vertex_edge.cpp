@@ -187,7 +187,8 @@ class VertexEdge final : public ContactModel {
         continue;
       const Piece& own = work.pieces[contact.entry].piece[contact.vertex_body];
       const Piece& met = work.pieces[contact.entry].piece[1 - contact.vertex_body];
-      if (contact.side != other.vertex && met.next(contact.side) != other.vertex) continue;
+      // Both ends of the side may meet corners; the partner is the one at this end.
+      if (other.vertex != (contact.lever < 0.5 ? contact.side : met.next(contact.side))) continue;
       if (const SpringHistory* old = find_old(work.old, other.key)) {
         const double turned = dot(own.tangent(other.side), met.tangent(contact.side));
         history.elastic = -std::copysign(old->elastic, old->elastic * turned);
@@ -277,22 +278,12 @@ class VertexEdge final : public ContactModel {
   double normal_spring_, tangential_spring_;
 };
 
-constexpr Component components[] = {{
-    ComponentKind::contact_model,
+constexpr Component components[] = {contact_model<VertexEdge>(
     "vertex_edge",
-    "The contact of DDA: springs between vertices and edges, Mohr-Coulomb with tension cut-off.",
-    parameters,
-    std::size(parameters),
-    interface_parameters,
-    std::size(interface_parameters),
-    create_component<ContactModel, VertexEdge>,
-    destroy_component<ContactModel>,
-}};
+    "The contact of DDA: springs between vertices and edges, Mohr-Coulomb with tension cut-off.", parameters,
+    interface_parameters)};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "vertex_edge",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("vertex_edge", "0.1.0", "the talus authors", components);

@@ -22,11 +22,11 @@ MotionState::MotionState(const Model& model)
   }
 }
 
-Vec2 displacement(const Motion2& m, Vec2 p) {
+Vec2 displacement(const BodyMotion& m, Vec2 p) {
   return {m.u.x + m.h.xx * p.x + m.h.xy * p.y, m.u.y + m.h.yx * p.x + m.h.yy * p.y};
 }
 
-Vec2 velocity(const Motion2& m, Vec2 p) {
+Vec2 velocity(const BodyMotion& m, Vec2 p) {
   return {m.velocity.x + m.rate.xx * p.x + m.rate.xy * p.y, m.velocity.y + m.rate.yx * p.x + m.rate.yy * p.y};
 }
 
@@ -39,7 +39,7 @@ void MotionState::move_boundary(const Model& model) {
 }
 
 void MotionState::move_corners(const Model& model, std::size_t body) {
-  const Motion2& motion = bodies[body];
+  const BodyMotion& motion = bodies[body];
   for (std::uint32_t c = model.bodies[body].corner_begin; c < model.bodies[body].corner_end; ++c) {
     const Vec2 reference{model.reference_x[c], model.reference_y[c]};
     const Vec2 moved = displacement(motion, reference), speed = velocity(motion, reference);
@@ -81,7 +81,7 @@ MotionState::Speeds MotionState::speeds() const {
   return {std::sqrt(squared), std::sqrt(dx * dx + dy * dy)};
 }
 
-double torque(const Motion2& m, const BodyForce& f) {
+double torque(const BodyMotion& m, const BodyForce& f) {
   const Matrix2& q = f.moment;
   return (1 + m.h.xx) * q.yx + m.h.xy * q.yy - m.h.yx * q.xx - (1 + m.h.yy) * q.xy;
 }

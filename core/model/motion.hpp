@@ -8,7 +8,7 @@ namespace talus {
 
 /// Where every body is and how it moves: x = X + u + H X, X relative to the body's centroid at the start, x
 /// too. Velocities are those of the half step, so that x_n − x_{n−1} = v Δt (Eq. 22).
-struct Motion2 {
+struct BodyMotion {
   Vec2 u;           ///< m
   Matrix2 h;        ///< displacement gradient; R − I of a rigid body
   Vec2 velocity;    ///< m/s
@@ -35,7 +35,7 @@ struct BodyForce {
 struct MotionState {
   explicit MotionState(const Model& model);
 
-  std::vector<Motion2> bodies;
+  std::vector<BodyMotion> bodies;
   std::vector<BodyForce> forces;
   std::vector<double> x, y, vx, vy;                  ///< [corner] in the frame of the body, m, m/s
   std::vector<double> tangent_x, tangent_y, length;  ///< [corner] of the side that starts there
@@ -54,11 +54,11 @@ struct MotionState {
   void measure_sides(const Model& model, std::size_t body);
 };
 
-Vec2 displacement(const Motion2& motion, Vec2 reference);
-Vec2 velocity(const Motion2& motion, Vec2 reference);
+Vec2 displacement(const BodyMotion& motion, Vec2 reference);
+Vec2 velocity(const BodyMotion& motion, Vec2 reference);
 
 /// ΣF r × F of a body force about the displaced centroid, N.
-double torque(const Motion2& motion, const BodyForce& force);
+double torque(const BodyMotion& motion, const BodyForce& force);
 
 /// R − I, R the rotation of the polar decomposition of I + H.
 Matrix2 rotation_of(const Matrix2& h);

@@ -27,7 +27,7 @@ struct Update {
 };
 
 void accelerate_freely(const Body& body, const BodyForce& force, const StepConditions& conditions,
-                       Update update, Motion2& motion) {
+                       Update update, BodyMotion& motion) {
   motion.velocity.x =
       update.keep * motion.velocity.x + update.gain * (force.force.x / body.mass + conditions.gravity.x);
   motion.velocity.y =
@@ -48,8 +48,8 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
 /// Puts the prescribed parts of the motion in place and books the work of the reactions. Moving the centroid
 /// and turning about it are orthogonal in the mass, so taking one out leaves the others as they are.
 void impose_supports(const Body& body, double density, const Support& support,
-                     const StepConditions& conditions, Update update, const Motion2& before, Motion2& after,
-                     AccelerationWork& work) {
+                     const StepConditions& conditions, Update update, const BodyMotion& before,
+                     BodyMotion& after, AccelerationWork& work) {
   const auto impose = [&](const std::optional<double>& wanted, double mass, double value,
                           double value_before) {
     const double target = conditions.supports_driven ? *wanted : 0;
@@ -73,10 +73,10 @@ void impose_supports(const Body& body, double density, const Support& support,
 }
 
 /// Velocity at t_n between those of the half steps behind and ahead; ½(v₋ + v₊) for equal steps.
-Motion2 velocity_at_step(const Motion2& p, const Motion2& q, const StepConditions& conditions) {
+BodyMotion velocity_at_step(const BodyMotion& p, const BodyMotion& q, const StepConditions& conditions) {
   const double share = conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);
   const auto between = [&](double before, double after) { return before + share * (after - before); };
-  Motion2 result = q;
+  BodyMotion result = q;
   result.velocity = {between(p.velocity.x, q.velocity.x), between(p.velocity.y, q.velocity.y)};
   result.spin = between(p.spin, q.spin);
   result.rate = {between(p.rate.xx, q.rate.xx), between(p.rate.xy, q.rate.xy), between(p.rate.yx, q.rate.yx),
@@ -85,9 +85,9 @@ Motion2 velocity_at_step(const Motion2& p, const Motion2& q, const StepCondition
 }
 
 /// The velocity as far on the other side of t_n as `side` is on this one.
-Motion2 mirrored(const Motion2& at_step, const Motion2& side) {
+BodyMotion mirrored(const BodyMotion& at_step, const BodyMotion& side) {
   const auto mirror = [](double middle, double value) { return 2 * middle - value; };
-  Motion2 result = at_step;
+  BodyMotion result = at_step;
   result.velocity = {mirror(at_step.velocity.x, side.velocity.x),
                      mirror(at_step.velocity.y, side.velocity.y)};
   result.spin = mirror(at_step.spin, side.spin);
@@ -100,15 +100,15 @@ Motion2 mirrored(const Motion2& at_step, const Motion2& side) {
 /// ahead). With the velocities of uneven steps the product would miss energy of first order in their
 /// difference.
 double kinetic_at_step(const Body& body, double density, const StepConditions& conditions,
-                       const Motion2& before, const Motion2& at_step, const Motion2& after) {
+                       const BodyMotion& before, const BodyMotion& at_step, const BodyMotion& after) {
   if (conditions.dt_behind == conditions.dt_ahead) return kinetic_energy(body, density, before, after);
-  const Motion2& side = conditions.dt_behind > 0 ? before : after;
+  const BodyMotion& side = conditions.dt_behind > 0 ? before : after;
   return kinetic_energy(body, density, side, mirrored(at_step, side));
 }
 
 }  // namespace
 
-double kinetic_energy(const Body& body, double density, const Motion2& p, const Motion2& q) {
+double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q) {
   const double translation = body.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
   const double rest = body.kinematics == Kinematics::rigid ? body.inertia * p.spin * q.spin
                                                            : product(body.moments, density, p.rate, q.rate);
@@ -117,7 +117,7 @@ double kinetic_energy(const Body& body, double density, const Motion2& p, const 
 
 AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
                             const StepConditions& conditions, MotionState& motion,
-                            std::vector<Motion2>& at_time) {
+                            std::vector<BodyMotion>& at_time) {
   AccelerationWork work;
   const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const double half_damping = conditions.damping * dt / 2;
@@ -126,11 +126,11 @@ AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene
     const Body& body = model.bodies[i];
     if (body.kinematics == Kinematics::fixed) continue;
     const double density = body.mass / body.moments.area;
-    Motion2& now = motion.bodies[i];
-    const Motion2 before = now;
+    BodyMotion& now = motion.bodies[i];
+    const BodyMotion before = now;
     accelerate_freely(body, motion.forces[i], conditions, update, now);
     impose_supports(body, density, scene[i].support, conditions, update, before, now, work);
-    Motion2& at_step = at_time[i];
+    BodyMotion& at_step = at_time[i];
     at_step = velocity_at_step(before, now, conditions);
     work.kinetic += kinetic_at_step(body, density, conditions, before, at_step, now);
     if (body.kinematics == Kinematics::rigid) at_step.rate = spin_rate(at_step);
@@ -146,7 +146,7 @@ AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene
   return work;
 }
 
-Matrix2 spin_rate(const Motion2& motion) {
+Matrix2 spin_rate(const BodyMotion& motion) {
   const Matrix2 spin = unit_spin(motion.h);
   return {motion.spin * spin.xx, motion.spin * spin.xy, motion.spin * spin.yx, motion.spin * spin.yy};
 }
@@ -154,7 +154,7 @@ Matrix2 spin_rate(const Motion2& motion) {
 void move(const Model& model, double dt, MotionState& motion) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (model.bodies[i].kinematics == Kinematics::fixed) continue;
-    Motion2& body = motion.bodies[i];
+    BodyMotion& body = motion.bodies[i];
     body.u.x += dt * body.velocity.x;
     body.u.y += dt * body.velocity.y;
     if (model.bodies[i].kinematics == Kinematics::rigid) {

@@ -28,15 +28,15 @@ struct StepConditions {
 /// with its velocity at t_n.
 AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
                             const StepConditions& conditions, MotionState& motion,
-                            std::vector<Motion2>& at_time);
+                            std::vector<BodyMotion>& at_time);
 
 /// Rate of H of a rigid body that spins.
-Matrix2 spin_rate(const Motion2& motion);
+Matrix2 spin_rate(const BodyMotion& motion);
 
 /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
 void move(const Model& model, double dt, MotionState& motion);
 
 /// Kinetic energy of a body with velocities p before and q after, ½ pᵀ M q, J/m.
-double kinetic_energy(const Body& body, double density, const Motion2& p, const Motion2& q);
+double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q);
 
 }  // namespace talus

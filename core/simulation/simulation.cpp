@@ -20,7 +20,7 @@ const Scene& Simulation::scene() const {
 void Simulation::take_geometry(const Geometry& geometry) {
   const double* from = geometry.unknowns.data();
   for (std::size_t i = 0; i < state_->motion.bodies.size(); ++i, from += 6) {
-    Motion2& body = state_->motion.bodies[i];
+    BodyMotion& body = state_->motion.bodies[i];
     body.u = {from[0], from[1]};
     body.h = {from[2], from[3], from[4], from[5]};
     if (state_->model.bodies[i].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
@@ -29,7 +29,7 @@ void Simulation::take_geometry(const Geometry& geometry) {
 
 Geometry Simulation::geometry() const {
   Geometry geometry;
-  for (const Motion2& body : state_->motion.bodies) {
+  for (const BodyMotion& body : state_->motion.bodies) {
     for (const double value : {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy}) {
       geometry.unknowns.push_back(value);
     }
@@ -47,7 +47,7 @@ void Simulation::settle(const std::atomic<bool>* interrupted) {
     if (interrupted != nullptr && *interrupted) break;
   }
   s.settling = false;
-  for (Motion2& body : s.motion.bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
+  for (BodyMotion& body : s.motion.bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
   s.time = 0;
   s.ledger.reset();
 }
@@ -117,7 +117,7 @@ std::size_t Simulation::block_count() const {
 
 std::string Simulation::state_hash() const {
   std::vector<double> state;
-  for (const Motion2& body : state_->motion.bodies) {
+  for (const BodyMotion& body : state_->motion.bodies) {
     state.insert(state.end(),
                  {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy, body.velocity.x,
                   body.velocity.y, body.rate.xx, body.rate.xy, body.rate.yx, body.rate.yy, body.spin});

@@ -211,7 +211,7 @@ void Simulation::State::bring_rotation_up_to_date() {
 
 void Simulation::State::set_initial_velocities() {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    Motion2& body = motion.bodies[i];
+    BodyMotion& body = motion.bodies[i];
     const SceneBody& given = scene.bodies[i];
     body.velocity = {given.support.x.value_or(given.velocity.x), given.support.y.value_or(given.velocity.y)};
     body.spin = given.support.rotation.value_or(given.angular_velocity);

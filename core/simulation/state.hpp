@@ -39,11 +39,11 @@ struct Simulation::State {
   };
   Plan plan;
 
-  std::vector<Motion2> at_time;    ///< with the velocities at t_n
-  std::vector<Motion2> start;      ///< motion at t = 0, which displacements count from
-  std::vector<double> rotation;    ///< rad since t = 0, followed through full turns
-  std::vector<Matrix2> last_turn;  ///< where `rotation` was brought up to date
-  double turned = 0;               ///< rad, bound of what any body has turned since then
+  std::vector<BodyMotion> at_time;  ///< with the velocities at t_n
+  std::vector<BodyMotion> start;    ///< motion at t = 0, which displacements count from
+  std::vector<double> rotation;     ///< rad since t = 0, followed through full turns
+  std::vector<Matrix2> last_turn;   ///< where `rotation` was brought up to date
+  double turned = 0;                ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;
   ContactTotals contact_totals;

@@ -29,22 +29,11 @@ class Block final : public CoverBuilder {
   std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
 };
 
-constexpr Component components[] = {{
-    ComponentKind::cover_builder,
-    "block",
-    "One triangle of three patches around each body: a block with uniform strain (first-order DDA).",
-    nullptr,
-    0,
-    nullptr,
-    0,
-    create_component<CoverBuilder, Block>,
-    destroy_component<CoverBuilder>,
-}};
+constexpr Component components[] = {cover_builder<Block>(
+    "block", "One triangle of three patches around each body: a block with uniform strain (first-order DDA).",
+    {})};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "block",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("block", "0.1.0", "the talus authors", components);

@@ -64,22 +64,10 @@ class LinearElastic final : public Material {
   double along_, across_, shear_;  ///< Pa: D_11 = D_22, D_12, D_33
 };
 
-constexpr Component components[] = {{
-    ComponentKind::material,
-    "linear_elastic",
-    "Isotropic linear elasticity, corotational: exact under any rotation.",
-    parameters,
-    std::size(parameters),
-    nullptr,
-    0,
-    create_component<Material, LinearElastic>,
-    destroy_component<Material>,
-}};
+constexpr Component components[] = {material<LinearElastic>(
+    "linear_elastic", "Isotropic linear elasticity, corotational: exact under any rotation.", parameters)};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "linear_elastic",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("linear_elastic", "0.1.0", "the talus authors", components);

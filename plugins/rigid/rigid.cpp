@@ -18,22 +18,10 @@ class Rigid final : public CoverBuilder {
   std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
 };
 
-constexpr Component components[] = {{
-    ComponentKind::cover_builder,
-    "rigid",
-    "A body of three unknowns that does not deform and carries no stress.",
-    nullptr,
-    0,
-    nullptr,
-    0,
-    create_component<CoverBuilder, Rigid>,
-    destroy_component<CoverBuilder>,
-}};
+constexpr Component components[] = {cover_builder<Rigid>(
+    "rigid", "A body of three unknowns that does not deform and carries no stress.", {})};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = {.name = "rigid",
-                                                   .version = "0.1.0",
-                                                   .author = "the talus authors",
-                                                   .components = components,
-                                                   .component_count = std::size(components)};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("rigid", "0.1.0", "the talus authors", components);

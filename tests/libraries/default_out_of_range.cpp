@@ -16,4 +16,4 @@ constexpr talus::Component components[] = {law<SilentLaw>("blameless"), out_of_r
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = descriptor(components, 2);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 2);

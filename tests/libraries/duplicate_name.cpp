@@ -7,4 +7,4 @@ constexpr talus::Component components[] = {law<SilentLaw>("blameless"), law<Sile
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = descriptor(components, 2);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 2);

@@ -7,4 +7,4 @@ constexpr talus::Component components[] = {law<SilentLaw>("overlap_area")};
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = descriptor(components, 1);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 1);

@@ -13,4 +13,4 @@ constexpr talus::Library null_name() {
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = null_name();
+TALUS_EXPORT const talus::Library talus_library = null_name();

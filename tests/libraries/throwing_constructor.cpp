@@ -22,4 +22,4 @@ constexpr talus::Component components[] = {law<ThrowsWords>("throws_words"),
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = descriptor(components, 2);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 2);

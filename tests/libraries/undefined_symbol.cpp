@@ -20,4 +20,4 @@ constexpr talus::Component components[] = {law<CarelessLaw>("undefined_symbol")}
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = descriptor(components, 1);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 1);

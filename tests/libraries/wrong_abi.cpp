@@ -19,4 +19,4 @@ constexpr talus::Library wrong_abi() {
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = wrong_abi();
+TALUS_EXPORT const talus::Library talus_library = wrong_abi();

@@ -13,4 +13,4 @@ constexpr talus::Library wrong_magic() {
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = wrong_magic();
+TALUS_EXPORT const talus::Library talus_library = wrong_magic();

@@ -13,4 +13,4 @@ constexpr talus::Library wrong_size() {
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = wrong_size();
+TALUS_EXPORT const talus::Library talus_library = wrong_size();

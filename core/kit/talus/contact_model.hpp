@@ -88,8 +88,9 @@ struct PairReport {
   double damping_power;  ///< J/m, damping force times displacement since t_{n-1}; never negative
 };
 
-/// What a law fills in. Every array is host memory, sized by the host, zero-filled before the call; the law
-/// writes only at indices of the pairs it was given.
+/// What a law fills in, in host memory sized by the host. Loads and pair reports are zero before the call;
+/// the slots of a pair hold anything until the law writes those of the contacts it counts. It writes only at
+/// indices of the pairs it was given.
 struct ContactLoads {
   double* fx;       ///< [load] N/m at corners: PiecePair::load_start + position of the corner in the piece
   double* fy;       ///< [load] N/m

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <iterator>
 
 namespace talus {
 
@@ -77,6 +76,63 @@ void destroy_component(void* object) noexcept {
   delete static_cast<Interface*>(object);
 }
 
+/// A table of parameters, or none.
+struct ParameterTable {
+  constexpr ParameterTable() = default;
+  template <std::size_t count>
+  constexpr ParameterTable(const Parameter (&table)[count]) : first(table), size(count) {}
+
+  const Parameter* first = nullptr;
+  std::uint32_t size = 0;
+};
+
+template <class Interface, class Model>
+constexpr Component component(ComponentKind kind, const char* name, const char* sentence,
+                              ParameterTable parameters, ParameterTable interface_parameters) {
+  return {kind,
+          name,
+          sentence,
+          parameters.first,
+          parameters.size,
+          interface_parameters.first,
+          interface_parameters.size,
+          create_component<Interface, Model>,
+          destroy_component<Interface>};
+}
+
+/// Entries of a library's list of components; `Model` is made from its parameter values, `Model(const
+/// double*)`.
+template <class Model>
+constexpr Component contact_model(const char* name, const char* sentence, ParameterTable parameters,
+                                  ParameterTable interface_parameters) {
+  return component<ContactModel, Model>(ComponentKind::contact_model, name, sentence, parameters,
+                                        interface_parameters);
+}
+
+template <class Model>
+constexpr Component material(const char* name, const char* sentence, ParameterTable parameters) {
+  return component<Material, Model>(ComponentKind::material, name, sentence, parameters, {});
+}
+
+template <class Model>
+constexpr Component cover_builder(const char* name, const char* sentence, ParameterTable parameters) {
+  return component<CoverBuilder, Model>(ComponentKind::cover_builder, name, sentence, parameters, {});
+}
+
+template <std::size_t count>
+constexpr Library library(const char* name, const char* version, const char* author,
+                          const Component (&components)[count]) {
+  Library result;
+  result.name = name;
+  result.version = version;
+  result.author = author;
+  result.components = components;
+  result.component_count = count;
+  return result;
+}
+
 }  // namespace talus
 
-#define TALUS_EXPORT extern "C" __attribute__((visibility("default")))
+/// Before the definition of `talus_library`: TALUS_EXPORT const talus::Library talus_library =
+/// talus::library(…);
+#define TALUS_EXPORT extern "C" constinit __attribute__((visibility("default")))

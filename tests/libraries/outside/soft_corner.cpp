@@ -112,16 +112,10 @@ class SoftCorner final : public talus::ContactModel {
   }
 };
 
-constexpr talus::Component components[] = {{talus::ComponentKind::contact_model, "soft_corner",
-                                            "Corners pushed out with a force quadratic in their depth.",
-                                            nullptr, 0, interface_parameters, 1,
-                                            talus::create_component<talus::ContactModel, SoftCorner>,
-                                            talus::destroy_component<talus::ContactModel>}};
+constexpr talus::Component components[] = {talus::contact_model<SoftCorner>(
+    "soft_corner", "Corners pushed out with a force quadratic in their depth.", {}, interface_parameters)};
 
 }  // namespace
 
-TALUS_EXPORT constinit const talus::Library talus_library = {.name = "soft_corner",
-                                                             .version = "1.0",
-                                                             .author = "somebody else",
-                                                             .components = components,
-                                                             .component_count = 1};
+TALUS_EXPORT const talus::Library talus_library =
+    talus::library("soft_corner", "1.0", "somebody else", components);

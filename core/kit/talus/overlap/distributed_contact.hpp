@@ -257,6 +257,8 @@ class DistributedContact {
       const Piece& slave = cell.overlap->piece[1 - cell.master];
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
         const Segment& segment = segments_[s];
+        // A slave side that leans pushes along the normal of the cell with a part of its load only.
+        const double facing = std::max(0.0, -dot(slave.normal(segment.side), cell.normal));
         double rate[2];
         for (int end = 0; end < 2; ++end) {
           const Point at = segment.at[end];
@@ -265,8 +267,8 @@ class DistributedContact {
           rate[end] = -dot(velocity, cell.normal);
         }
         for (int end = 0; end < 2; ++end) {
-          const double viscous = viscosity * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
-          const double force = std::max(viscous, -segment.load[end]);
+          const double viscous = viscosity * facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
+          const double force = std::max(viscous, -facing * segment.load[end]);
           const Point at = segment.at[end];
           sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * cell.normal);
           sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
@@ -306,7 +308,8 @@ class DistributedContact {
         -(old_applied + history.applied) * slip_increment_ / 2 - (history.stored - old_stored);
 
     double force = history.applied;
-    if (damping > 0 && history.slip == 0) {
+    // Table 1 of the paper knows no dashpot, and with one its creep after a stop is another.
+    if (damping > 0 && history.slip == 0 && law.rule() == FrictionRule::return_mapping) {
       const double viscosity = 2 * damping / load * std::sqrt(input.stiffness * pair.reduced_mass);
       force = std::clamp(force - viscosity * slip_velocity_, -input.limit, input.limit);
       report.damping_power += std::max(0.0, -(force - history.applied) * slip_increment_);

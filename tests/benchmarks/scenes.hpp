@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <string>
+
+namespace talus::benchmarks {
+
+/// What one measurement runs.
+struct Load {
+  std::string generator;   ///< script of scenes/generate, with its arguments
+  std::string law;         ///< contact law
+  bool one_sided = false;  ///< roles by priority instead of both roles: one evaluation of each overlap
+};
+
+/// The scene of a load, with no end in sight. Throws std::runtime_error when the script fails.
+Scene scene_of(const Load& load);
+
+}  // namespace talus::benchmarks

@@ -1,0 +1,220 @@
+#include "contact/contact_stage.hpp"
+#include "simulation/simulation.hpp"
+#include "simulation/working_scene.hpp"
+#include "tally.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+using namespace talus;
+
+namespace {
+
+/// A stage with the model and motion it works on.
+struct Stage {
+  Scene scene;
+  Model model;
+  MotionState motion;
+  ContactStage contacts;
+
+  Stage(const WorkingScene& text, Registry& registry)
+      : scene(text.read(registry)),
+        model(build_model(scene)),
+        motion(model),
+        contacts(scene, model, 1, true) {}
+
+  ContactTotals evaluate(double dt = 1e-3) {
+    for (BodyForce& force : motion.forces) force = {};
+    motion.move_boundary(model);
+    contacts.find_pairs(model, motion, 1e9);  // the candidates are sought anew every time
+    return contacts.evaluate(model, motion, {dt, true, false});
+  }
+
+  const BodyPair& pair(std::uint32_t a, std::uint32_t b) const {
+    for (const BodyPair& pair : contacts.pairs()) {
+      if (pair.a == a && pair.b == b) return pair;
+    }
+    throw std::logic_error("no such pair");
+  }
+
+  std::vector<double> history(std::uint32_t a, std::uint32_t b) const {
+    const BodyPair& p = pair(a, b);
+    const std::size_t doubles = contacts.law()->doubles_per_contact();
+    const auto found = contacts.history().subspan(p.slot_start * doubles, p.contact_count * doubles);
+    return {found.begin(), found.end()};
+  }
+};
+
+/// A comb of seven teeth 1 m wide; the first, third and fifth are 0.5 m high, the others 1 mm less.
+std::string comb(double lowest) {
+  std::string polygon = fmt::format("[7, {0:.17g}], [0, {0:.17g}]", lowest + 2);
+  for (int i = 0; i < 7; ++i) {
+    const double tip = lowest + (i % 2 == 0 && i < 6 ? 0 : 1e-3);
+    polygon += fmt::format(", [{}, {:.17g}], [{}, {:.17g}]", i, lowest + 0.5, i + 0.5, tip);
+  }
+  polygon += fmt::format(", [7, {:.17g}]", lowest + 0.5);
+  return R"({"name": "comb", "material": "rock", "polygon": [)" + polygon + "]}";
+}
+
+WorkingScene combed() {
+  WorkingScene scene;
+  scene.bodies = box("base", -1, -1, 8, 0, R"("fixed": true)") + ", " + comb(0.5);
+  scene.interface =
+      R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+         "normal_damping": 0, "tangential_damping": 0)";
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("room is made for as many contacts as a law finds, and none forgets its history",
+          "[contact][stage]") {
+  WorkingScene text;
+  text.law = "tally";
+  text.interface = R"("normal_stiffness": 1)";
+  text.bodies = box("a", 0, 0, 1, 1) + ", " + box("b", 1, 0, 2, 1) + ", " + box("c", 2, 0, 3, 1);
+  Stage stage(text, tally::registry());
+  tally::contacts = 1;
+  stage.evaluate();
+  stage.evaluate();
+  CHECK(stage.history(0, 1) == std::vector<double>{2});
+  tally::contacts = 9;
+  stage.evaluate();
+  CHECK(stage.history(0, 1) == std::vector<double>{3, 1, 1, 1, 1, 1, 1, 1, 1});
+  CHECK(stage.history(1, 2) == std::vector<double>{3, 1, 1, 1, 1, 1, 1, 1, 1});
+  CHECK(stage.pair(0, 1).slot_capacity >= 9);
+  tally::contacts = 2;
+  stage.evaluate();
+  CHECK(stage.history(0, 1) == std::vector<double>{4, 2});
+  tally::contacts = 40;
+  stage.evaluate();
+  std::vector<double> ages(40, 1.0);
+  ages[0] = 5, ages[1] = 3;
+  CHECK(stage.history(0, 1) == ages);
+  tally::contacts = 1;
+}
+
+TEST_CASE("a pair keeps its history when other pairs come and go", "[contact][stage]") {
+  WorkingScene text;
+  text.law = "tally";
+  text.interface = R"("normal_stiffness": 1)";
+  text.bodies = box("far", -50, 0, -49, 1) + ", " + box("left", 0, 0, 1, 1) + ", " +
+                box("right", 1, 0, 2, 1) + ", " + box("other", 60, 0, 61, 1);
+  Stage stage(text, tally::registry());
+  tally::contacts = 2;
+  for (int i = 0; i < 3; ++i) stage.evaluate();
+  REQUIRE(stage.contacts.pairs().size() == 1);
+  CHECK(stage.history(1, 2) == std::vector<double>{3, 3});
+
+  stage.motion.bodies[0].u.x = 49;   // beside 'left': a pair before the old one
+  stage.motion.bodies[3].u.x = -58;  // beside 'right': a pair behind it
+  stage.evaluate();
+  REQUIRE(stage.contacts.pairs().size() == 3);
+  CHECK(stage.history(0, 1) == std::vector<double>{1, 1});
+  CHECK(stage.history(1, 2) == std::vector<double>{4, 4});
+  CHECK(stage.history(2, 3) == std::vector<double>{1, 1});
+
+  stage.motion.bodies[0].u.x = 0;
+  stage.evaluate();
+  REQUIRE(stage.contacts.pairs().size() == 2);
+  CHECK(stage.history(1, 2) == std::vector<double>{5, 5});
+  CHECK(stage.history(2, 3) == std::vector<double>{2, 2});
+
+  stage.motion.bodies[0].u.x = 49;  // back again, as a stranger
+  stage.evaluate();
+  CHECK(stage.history(0, 1) == std::vector<double>{1, 1});
+  CHECK(stage.history(1, 2) == std::vector<double>{6, 6});
+  tally::contacts = 1;
+}
+
+TEST_CASE("a comb stands on as many overlaps as teeth reach the base", "[contact][stage]") {
+  Stage stage(combed(), shipped_registry());
+  const double stiffness = 1e9, stand_off = 0.5, flat = 0.5 / 0.499;
+
+  // 0.4 mm into the base: three teeth; 3 mm: all seven. A tip of depth d covers d² 0.5 m/(height of the
+  // tooth).
+  stage.motion.bodies[1].u.y = -stand_off - 0.4e-3;
+  ContactTotals totals = stage.evaluate();
+  CHECK(stage.pair(0, 1).contact_count == 3);
+  CHECK(stage.motion.forces[1].force.y == Approx(stiffness * 3 * 0.16e-6).epsilon(1e-9));
+  CHECK(totals.penetration == Approx(0.4e-3).epsilon(1e-9));
+
+  stage.motion.bodies[1].u.y = -stand_off - 3e-3;
+  totals = stage.evaluate();
+  CHECK(stage.pair(0, 1).contact_count == 7);
+  CHECK(stage.motion.forces[1].force.y == Approx(stiffness * (3 * 9e-6 + 4 * 4e-6 * flat)).epsilon(1e-9));
+  CHECK(stage.motion.forces[1].force.x == Approx(0).margin(1e-6));
+  CHECK(stage.motion.forces[0].force.y == Approx(-stage.motion.forces[1].force.y));
+  CHECK(totals.penetration == Approx(3e-3).epsilon(1e-9));
+  // Π = α ∫ g dA of a triangle: α d/3 times its area.
+  CHECK(totals.stored == Approx(stiffness * (3 * 27e-9 + 4 * 8e-9 * flat) / 3).epsilon(1e-9));
+}
+
+TEST_CASE("teeth that join later leave the springs of the first ones as they are", "[contact][stage]") {
+  Stage stage(combed(), shipped_registry());
+  stage.motion.bodies[1].u.y = -0.5 - 0.4e-3;
+  stage.evaluate();
+  stage.motion.bodies[1].velocity = {1e-3, 0};
+  stage.evaluate(1e-3);  // a slip of 1e-6 m in stick
+  const double sheared = stage.motion.forces[1].force.x;
+  // Every tip touches along 0.8 mm.
+  CHECK(sheared == Approx(-3 * 1e9 * 0.8e-3 * 1e-6).epsilon(1e-6));
+
+  stage.motion.bodies[1].velocity = {0, 0};
+  stage.motion.bodies[1].u.y = -0.5 - 3e-3;
+  stage.evaluate();
+  REQUIRE(stage.pair(0, 1).contact_count == 7);
+  CHECK(stage.motion.forces[1].force.x == Approx(sheared).epsilon(1e-9));
+}
+
+TEST_CASE("a fixed body is master, and between moving bodies both are or the priority decides",
+          "[contact][stage]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1) + ", " + box("base", 0, -1, 9, 0, R"("fixed": true)") + ", " +
+                box("b", 1, 0, 3, 1) + ", " + box("c", 3, 0, 4, 1, R"("priority": 2)");
+  Stage both(text, shipped_registry());
+  both.evaluate();
+  CHECK(both.pair(0, 1).master_share == 0);  // the base is the second of its pair
+  CHECK(both.pair(1, 2).master_share == 1);
+  CHECK(both.pair(0, 2).master_share == 0.5);
+  CHECK(both.pair(2, 3).master_share == 0.5);
+  CHECK(both.pair(0, 1).reduced_mass == Approx(2300));
+  CHECK(both.pair(0, 2).reduced_mass == Approx(2300 * 2 / 3.0));
+  CHECK(both.pair(0, 2).offset_x == Approx(1.5));
+  CHECK(both.pair(0, 2).offset_y == Approx(0).margin(1e-15));
+
+  Scene scene = text.read();
+  scene.roles_by_priority = true;
+  ContactStage contacts(scene, both.model, 1, true);
+  contacts.find_pairs(both.model, both.motion, 1);
+  for (const BodyPair& pair : contacts.pairs()) {
+    if (pair.a == 0 && pair.b == 2) CHECK(pair.master_share == 0.5);  // equal priorities
+    if (pair.a == 2 && pair.b == 3) CHECK(pair.master_share == 0);
+  }
+}
+
+TEST_CASE("seeking the candidates anew every step changes no bit", "[contact][stage]") {
+  WorkingScene text;
+  text.gravity = "[3, -10]";
+  text.cover = "block";
+  text.bodies = box("base", -5, -1, 20, 0, R"("fixed": true)");
+  for (int i = 0; i < 6; ++i) {
+    text.bodies += ", " + box(fmt::format("b{}", i), 1.5 * i, 0.05 * i, 1.5 * i + 1, 0.05 * i + 1,
+                              fmt::format(R"("velocity": [{}, 0])", 3 - i));
+  }
+  text.time = R"({"end": 0.3})";
+  text.interface =
+      R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 20,
+         "normal_damping": 0.1, "tangential_damping": 0.1)";
+  const auto run = [&](bool skin) {
+    Simulation simulation(text.read(), {.neighbour_skin = skin});
+    while (simulation.advance()) {
+    }
+    return std::pair{simulation.state_hash(), simulation.summary().pair_searches};
+  };
+  const auto [with, searches] = run(true);
+  const auto [without, all_searches] = run(false);
+  CHECK(with == without);
+  CHECK(searches * 10 < all_searches);
+}

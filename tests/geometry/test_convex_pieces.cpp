@@ -1,0 +1,253 @@
+#include "geometry/convex_pieces.hpp"
+#include "geometry/polygon.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+
+using namespace talus;
+
+namespace {
+
+struct Shape {
+  std::string name;
+  Ring outer;
+  std::vector<Ring> holes;  ///< clockwise
+  std::size_t pieces;       ///< expected; 0 where only the rules count
+};
+
+const Ring square_hole{{1, 1}, {1, 2}, {2, 2}, {2, 1}};
+const Ring triangular_hole{{4, 1}, {4.5, 2.5}, {5, 1}};
+
+Ring star(int points) {
+  const double pi = std::acos(-1.0);
+  Ring ring;
+  for (int i = 0; i < 2 * points; ++i) {
+    const double radius = i % 2 == 0 ? 2 : 0.8, angle = pi * i / points;
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+Ring saw_tooth(int teeth) {
+  Ring ring{{static_cast<double>(teeth), 2}, {0, 2}, {0, 1}};
+  for (int i = 0; i < teeth; ++i) {
+    ring.push_back({i + 0.5, 0.5});
+    if (i + 1 < teeth) ring.push_back({i + 1.0, 1});
+  }
+  ring.push_back({static_cast<double>(teeth), 1});
+  return ring;
+}
+
+std::vector<Shape> shapes() {
+  return {
+      {"square", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, 1},
+      {"square with collinear vertices", {{0, 0}, {0.3, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}}, {}, 1},
+      {"L", {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, {}, 2},
+      {"T", {{-1, 0}, {1, 0}, {1, 3}, {3, 3}, {3, 4}, {-3, 4}, {-3, 3}, {-1, 3}}, {}, 3},
+      {"U", {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, {}, 3},
+      {"L with collinear vertices", {{0, 0}, {2, 0}, {3, 0}, {3, 1}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, {}, 2},
+      {"star", star(5), {}, 0},
+      {"saw-tooth", saw_tooth(6), {}, 0},
+      {"one hole", {{0, 0}, {6, 0}, {6, 4}, {0, 4}}, {square_hole}, 0},
+      {"two holes", {{0, 0}, {6, 0}, {6, 4}, {0, 4}}, {square_hole, triangular_hole}, 0},
+      {"two holes in a row",
+       {{0, 0}, {6, 0}, {6, 3}, {0, 3}},
+       {square_hole, {{4, 1}, {4, 2}, {5, 2}, {5, 1}}},
+       0},
+      {"thin spike outwards", {{0, 0}, {2, 0}, {2, 1}, {1.0001, 1}, {1, 5}, {0.9999, 1}, {0, 1}}, {}, 0},
+      {"thin slit", {{0, 0}, {2, 0}, {2, 3}, {1.0001, 3}, {1, 1}, {0.9999, 3}, {0, 3}}, {}, 2},
+      {"spiral",
+       {{0, 0}, {5, 0}, {5, 5}, {1, 5}, {1, 2}, {3, 2}, {3, 3}, {2, 3}, {2, 4}, {4, 4}, {4, 1}, {0, 1}},
+       {},
+       0},
+  };
+}
+
+Ring turned(const Ring& ring, double angle) {
+  Ring result;
+  for (const Vec2 p : ring) {
+    result.push_back(
+        {std::cos(angle) * p.x - std::sin(angle) * p.y, std::sin(angle) * p.x + std::cos(angle) * p.y});
+  }
+  return result;
+}
+
+/// Every edge gets a surface class of its own.
+Loop loop_of(const Ring& ring, std::uint32_t first_class) {
+  Loop loop{ring, {}};
+  for (std::uint32_t i = 0; i < ring.size(); ++i) loop.surface_class.push_back(first_class + i);
+  return loop;
+}
+
+double cross(Vec2 p, Vec2 q) {
+  return p.x * q.y - p.y * q.x;
+}
+Vec2 between(Vec2 p, Vec2 q) {
+  return {q.x - p.x, q.y - p.y};
+}
+double length(Vec2 p) {
+  return std::sqrt(p.x * p.x + p.y * p.y);
+}
+
+struct Side {
+  Vec2 from, to;
+};
+
+void check_convex(const ConvexPiece& piece) {
+  REQUIRE(piece.size() >= 3);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const Vec2 in = between(piece[i].at, piece[(i + 1) % piece.size()].at);
+    const Vec2 out = between(piece[(i + 1) % piece.size()].at, piece[(i + 2) % piece.size()].at);
+    CHECK(length(in) > 0);
+    CHECK(cross(in, out) >= -1e-10 * length(in) * length(out));
+  }
+}
+
+/// The sides of one class lie on its edge and follow one another from end to end.
+void check_cover(Vec2 from, Vec2 to, const std::vector<Side>& sides) {
+  const Vec2 edge = between(from, to);
+  const double size = length(edge);
+  std::vector<std::pair<double, double>> stretches;
+  for (const Side& side : sides) {
+    for (const Vec2 end : {side.from, side.to}) {
+      CHECK(std::abs(cross(edge, between(from, end))) / size < 1e-12 * std::max(1.0, size));
+    }
+    const auto along = [&](Vec2 p) {
+      const Vec2 away = between(from, p);
+      return (away.x * edge.x + away.y * edge.y) / size;
+    };
+    stretches.emplace_back(along(side.from), along(side.to));
+  }
+  std::sort(stretches.begin(), stretches.end());
+  double reached = 0;
+  for (const auto& [start, end] : stretches) {
+    CHECK(start == Approx(reached).margin(1e-12 * std::max(1.0, size)));
+    CHECK(end > start);
+    reached = end;
+  }
+  CHECK(reached == Approx(size).margin(1e-12 * std::max(1.0, size)));
+}
+
+std::vector<ConvexPiece> check_rules(const Ring& outer, const std::vector<Ring>& holes) {
+  std::vector<Loop> hole_loops;
+  auto classes = static_cast<std::uint32_t>(outer.size());
+  double area = ring_moments(outer, outer[0]).area;
+  for (const Ring& hole : holes) {
+    hole_loops.push_back(loop_of(hole, classes));
+    classes += static_cast<std::uint32_t>(hole.size());
+    area += ring_moments(hole, outer[0]).area;
+  }
+  const Loop outer_loop = loop_of(outer, 0);
+  const std::vector<ConvexPiece> pieces = convex_pieces(outer_loop, hole_loops);
+
+  double sum = 0;
+  std::map<std::uint32_t, std::vector<Side>> boundary, cuts;
+  for (const ConvexPiece& piece : pieces) {
+    check_convex(piece);
+    Ring ring;
+    for (const PieceCorner& corner : piece) ring.push_back(corner.at);
+    const double part = ring_moments(ring, ring[0]).area;
+    CHECK(part > 0);
+    sum += part;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const bool internal = piece[i].surface == internal_side;
+      auto& sides = internal ? cuts[piece[i].cut] : boundary[piece[i].surface];
+      sides.push_back({piece[i].at, piece[(i + 1) % piece.size()].at});
+    }
+  }
+  CHECK(sum == Approx(area).epsilon(1e-12));
+
+  CHECK(boundary.size() == classes);
+  const auto check_loop = [&](const Loop& loop) {
+    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+      check_cover(loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()],
+                  boundary[loop.surface_class[i]]);
+    }
+  };
+  check_loop(outer_loop);
+  for (const Loop& hole : hole_loops) check_loop(hole);
+
+  for (const auto& [number, sides] : cuts) {
+    INFO("cut " << number);
+    CHECK(sides.size() >= 2);
+    Vec2 closing{0, 0};
+    for (const Side& side : sides) {
+      const Vec2 along = between(side.from, side.to), first = between(sides[0].from, sides[0].to);
+      CHECK(std::abs(cross(along, first)) < 1e-9 * length(first) * length(along));
+      CHECK(std::abs(cross(between(sides[0].from, side.from), first)) < 1e-9 * length(first));
+      closing = {closing.x + along.x, closing.y + along.y};
+    }
+    CHECK(length(closing) < 1e-12);  // as much on one side of the cut as on the other
+  }
+  return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("bodies fall into convex pieces that keep area, boundary and cuts", "[geometry][pieces]") {
+  for (const Shape& shape : shapes()) {
+    for (const double angle : {0.0, 0.3, 1.1, 2.5}) {
+      INFO(shape.name << " turned by " << angle);
+      std::vector<Ring> holes;
+      for (const Ring& hole : shape.holes) holes.push_back(turned(hole, angle));
+      const std::vector<ConvexPiece> pieces = check_rules(turned(shape.outer, angle), holes);
+      if (shape.pieces > 0) CHECK(pieces.size() == shape.pieces);
+    }
+  }
+}
+
+TEST_CASE("a convex body is its own only piece", "[geometry][pieces]") {
+  const Ring ring{{0, 0}, {2, 0}, {3, 1}, {1, 3}};
+  const std::vector<ConvexPiece> pieces = convex_pieces(loop_of(ring, 5), {});
+  REQUIRE(pieces.size() == 1);
+  REQUIRE(pieces[0].size() == 4);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    CHECK(pieces[0][i].at.x == ring[i].x);
+    CHECK(pieces[0][i].at.y == ring[i].y);
+    CHECK(pieces[0][i].surface == 5 + i);
+  }
+}
+
+TEST_CASE("a cut runs along the inner bisector of its reflex vertex", "[geometry][pieces]") {
+  const std::vector<ConvexPiece> pieces =
+      convex_pieces(loop_of({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 0), {});
+  REQUIRE(pieces.size() == 2);
+  int internal = 0;
+  for (const ConvexPiece& piece : pieces) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      if (piece[i].surface != internal_side) continue;
+      ++internal;
+      const Vec2 along = between(piece[i].at, piece[(i + 1) % piece.size()].at);
+      CHECK(along.x == Approx(along.y));
+    }
+  }
+  CHECK(internal == 2);
+}
+
+TEST_CASE("ragged bodies of any outline are cut", "[geometry][pieces]") {
+  std::mt19937 random(20);
+  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  const double pi = std::acos(-1.0);
+  for (int body = 0; body < 200; ++body) {
+    INFO("body " << body);
+    const int corners = 5 + static_cast<int>(random() % 30);
+    Ring outer, hole;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * pi * (i + 0.8 * uniform()) / corners, radius = 1.5 + 3 * uniform();
+      outer.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    const int hole_corners = 3 + static_cast<int>(random() % 5);
+    for (int i = 0; i < hole_corners; ++i) {
+      const double angle = -2 * pi * i / hole_corners, radius = 0.2 + 0.3 * uniform();
+      hole.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    check_rules(outer, body % 2 == 0 ? std::vector<Ring>{} : std::vector<Ring>{hole});
+  }
+}

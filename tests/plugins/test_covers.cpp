@@ -1,0 +1,118 @@
+#include "geometry/polygon.hpp"
+#include "plugin/registry.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <talus/cover_builder.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <vector>
+
+using namespace talus;
+
+namespace {
+
+/// Writes down what a builder makes.
+class Notes final : public CoverSink {
+ public:
+  std::uint32_t add_patch(double x, double y) noexcept override {
+    stars.push_back({x, y});
+    return static_cast<std::uint32_t>(stars.size() - 1);
+  }
+  std::uint32_t add_element(const std::uint32_t patches[3], const AreaMoments& region) noexcept override {
+    elements.push_back({patches[0], patches[1], patches[2]});
+    regions.push_back(region);
+    return static_cast<std::uint32_t>(elements.size() - 1);
+  }
+  void make_rigid() noexcept override { ++rigid; }
+
+  std::vector<Vec2> stars;
+  std::vector<std::array<std::uint32_t, 3>> elements;
+  std::vector<AreaMoments> regions;
+  int rigid = 0;
+};
+
+Made<CoverBuilder> builder(const char* name) {
+  const RegisteredComponent* found = shipped_registry().find(ComponentKind::cover_builder, name);
+  REQUIRE(found != nullptr);
+  CHECK(found->component->parameter_count == 0);
+  return make<CoverBuilder>(*found, {});
+}
+
+/// Outline of a ring about its centroid.
+struct Drawn {
+  std::vector<double> x, y;
+  std::vector<std::uint32_t> loop_start;
+  AreaMoments moments;
+
+  explicit Drawn(Ring ring) {
+    const AreaMoments m = ring_moments(ring, {0, 0});
+    for (Vec2& p : ring) p = {p.x - m.x / m.area, p.y - m.y / m.area};
+    moments = about_centroid(ring_moments(ring, {0, 0}));
+    for (const Vec2 p : ring) x.push_back(p.x), y.push_back(p.y);
+    loop_start = {0, static_cast<std::uint32_t>(ring.size())};
+  }
+
+  Outline outline() const { return {x.data(), y.data(), loop_start.data(), 1}; }
+};
+
+double distance(Vec2 p, Vec2 q) {
+  return std::hypot(p.x - q.x, p.y - q.y);
+}
+
+const std::vector<Ring> rings{
+    {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+    {{0, 0}, {14, 0}, {14, 0.2}, {0, 0.2}},
+    {{3, 3}, {6, 3}, {6, 4}, {4, 4}, {4, 6}, {3, 6}},
+    {{-1, 0}, {5, -2}, {0, 9}},
+};
+
+}  // namespace
+
+TEST_CASE("a block is one element of three patches on a regular triangle around the body",
+          "[plugins][block]") {
+  for (const Ring& ring : rings) {
+    const Drawn drawn(ring);
+    Notes notes;
+    const auto block = builder("block");
+    block->build(drawn.outline(), drawn.moments, notes);
+    CHECK(notes.rigid == 0);
+    REQUIRE(notes.stars.size() == 3);
+    REQUIRE(notes.elements.size() == 1);
+    CHECK(notes.elements[0] == std::array<std::uint32_t, 3>{0, 1, 2});
+
+    const Vec2 a = notes.stars[0], b = notes.stars[1], c = notes.stars[2];
+    CHECK(distance(a, b) == Approx(distance(b, c)));
+    CHECK(distance(b, c) == Approx(distance(c, a)));
+    CHECK(a.x + b.x + c.x == Approx(0).margin(1e-12));
+    CHECK(a.y + b.y + c.y == Approx(0).margin(1e-12));
+    CHECK((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0);
+
+    // Every vertex lies in the triangle: no weight is negative.
+    for (std::size_t i = 0; i < drawn.x.size(); ++i) {
+      for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+        const double inside = (q.x - p.x) * (drawn.y[i] - p.y) - (q.y - p.y) * (drawn.x[i] - p.x);
+        CHECK(inside >= -1e-12 * distance(p, q) * distance(p, q));
+      }
+      CHECK(block->element_at(drawn.x[i], drawn.y[i]) == 0);
+    }
+
+    const AreaMoments& region = notes.regions[0];
+    CHECK(region.area == drawn.moments.area);
+    CHECK(region.xx == drawn.moments.xx);
+    CHECK(region.xy == drawn.moments.xy);
+    CHECK(region.yy == drawn.moments.yy);
+  }
+}
+
+TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rigid]") {
+  for (const Ring& ring : rings) {
+    const Drawn drawn(ring);
+    Notes notes;
+    builder("rigid")->build(drawn.outline(), drawn.moments, notes);
+    CHECK(notes.rigid == 1);
+    CHECK(notes.stars.empty());
+    CHECK(notes.elements.empty());
+  }
+}

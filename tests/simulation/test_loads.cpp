@@ -1,0 +1,106 @@
+#include "simulation/simulation.hpp"
+#include "working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace talus;
+
+namespace {
+
+Simulation run_to_end(const WorkingScene& text) {
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  return simulation;
+}
+
+double share(const EnergyLedger& ledger) {
+  return std::abs(ledger.residual) / ledger.throughput;
+}
+
+const std::string below = R"("surfaces": {"below": [0]})";
+
+}  // namespace
+
+TEST_CASE("a body sinks into its penalty support by its weight over the stiffness", "[simulation][loads]") {
+  WorkingScene text;
+  text.gravity = "[0, -10]";
+  text.bodies = box("a", 0, 0, 2, 1, below);
+  text.rest = R"("damping": 600, "prescribed": [{"body": "a", "surface": "below", "stiffness": 1e9,
+                  "displacement": [0, 0]}],)";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.body_motion(0).displacement.y == Approx(-2300 * 10 / 1e9).epsilon(1e-9));
+  CHECK(simulation.body_motion(0).displacement.x == Approx(0).margin(1e-15));
+  // λ/2 ∫ u² over 2 m.
+  CHECK(simulation.ledger().contact == Approx(1e9 * 2.3e-5 * 2.3e-5).epsilon(1e-8));
+  CHECK(share(simulation.ledger()) < 1e-3);
+}
+
+TEST_CASE("an axis without prescription is free", "[simulation][loads]") {
+  WorkingScene text;
+  text.gravity = "[1, -10]";
+  text.bodies = box("a", 0, 0, 1, 1, below);
+  text.rest = R"("prescribed": [{"body": "a", "surface": "below", "stiffness": 1e9,
+                  "displacement": [null, 0]}],)";
+  CHECK(run_to_end(text).body_motion(0).displacement.x == Approx(0.5).epsilon(1e-9));
+}
+
+TEST_CASE("a penalty support of uneven displacement turns the body back", "[simulation][loads]") {
+  // A couple F b on a support of length 1: rotation F b / (λ/12), for small angles.
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, below);
+  text.rest = R"("damping": 600, "loads": [{"body": "a", "point": [0, 0.5], "force": [0, -100]},
+                  {"body": "a", "point": [1, 0.5], "force": [0, 100]}],
+                 "prescribed": [{"body": "a", "surface": "below", "stiffness": 1e9,
+                  "displacement": [0, 0]}],)";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.body_motion(0).rotation == Approx(100 / (1e9 / 12)).epsilon(1e-4));
+  CHECK(simulation.point_motion(0, {0.5, 0}).displacement.y == Approx(0).margin(1e-10));
+}
+
+TEST_CASE("a moving support pulls the body along, and the ledger knows its work", "[simulation][loads]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, below);
+  text.time = R"({"end": 0.5, "safety": 0.05})";
+  for (const char* motion : {R"("ramp": 0.1, "displacement": [0.01, 0])", R"("velocity": [0.2, 0])",
+                             R"("ramp": 0.05, "displacement": [-0.01, 0.02], "velocity": [0.2, null])"}) {
+    INFO(motion);
+    text.rest = R"("prescribed": [{"body": "a", "surface": "below", "stiffness": 1e8, )" +
+                std::string(motion) + "}],";
+    const Simulation simulation = run_to_end(text);
+    const EnergyLedger& ledger = simulation.ledger();
+    CHECK(ledger.external_work > 0);
+    CHECK(ledger.kinetic + ledger.contact == Approx(ledger.external_work).epsilon(2e-3));
+    CHECK(simulation.summary().largest_residual_share < 5e-3);
+  }
+  text.rest = R"("damping": 150, "prescribed": [{"body": "a", "surface": "below", "stiffness": 1e8,
+                  "ramp": 0.1, "displacement": [0.01, 0]}],)";
+  CHECK(run_to_end(text).body_motion(0).displacement.x == Approx(0.01).epsilon(1e-6));
+}
+
+TEST_CASE("a point load works along the way of its point", "[simulation][loads]") {
+  for (const char* cover : {"rigid", "block"}) {
+    INFO(cover);
+    WorkingScene text;
+    text.cover = cover;
+    text.bodies = box("a", 0, 0, 1, 1);
+    text.rest = R"("loads": [{"body": "a", "point": [0.5, 0.5], "force": [2300, -4600]}],)";
+    const Simulation simulation = run_to_end(text);
+    CHECK(simulation.body_motion(0).displacement.x == Approx(0.5).epsilon(1e-9));
+    CHECK(simulation.body_motion(0).displacement.y == Approx(-1).epsilon(1e-9));
+    CHECK(simulation.ledger().external_work == Approx(2300 * 0.5 + 4600).epsilon(1e-9));
+    CHECK(simulation.summary().largest_residual_share < 1e-10);
+  }
+}
+
+TEST_CASE("an eccentric load turns the body by its moment", "[simulation][loads]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1);
+  text.rest = R"("loads": [{"body": "a", "point": [1, 0.5], "force": [0, 10]}],)";
+  text.time = R"({"end": 0.5, "dt": 1e-3})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.body_motion(0).rotation == Approx(10 * 0.5 / (2300 / 6.0) * 0.125).epsilon(1e-4));
+  CHECK(simulation.summary().largest_residual_share < 1e-4);
+}

@@ -1,0 +1,182 @@
+#include "simulation/simulation.hpp"
+#include "simulation/time_step.hpp"
+#include "stiffest_mode.hpp"
+#include "working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace talus;
+
+namespace {
+
+CriticalStep vote_of(const Scene& scene) {
+  const Model model = build_model(scene);
+  return critical_step(scene, model, ContactStage(scene, model, 1, true));
+}
+
+std::string stiff(double normal, double tangential) {
+  return fmt::format(R"("normal_stiffness": {}, "tangential_stiffness": {}, "friction_angle": 30,
+                         "normal_damping": 0, "tangential_damping": 0)",
+                     normal, tangential);
+}
+
+/// A block of 1 x 1 m with a neighbour on every side.
+WorkingScene cross(double stiffness, const std::string& cover, const std::string& neighbours) {
+  WorkingScene scene;
+  scene.cover = cover;
+  scene.bodies = box("middle", 0, 0, 1, 1) + ", " + box("east", 1, 0, 2, 1, neighbours) + ", " +
+                 box("north", 0, 1, 1, 2, neighbours) + ", " + box("west", -1, 0, 0, 1, neighbours) + ", " +
+                 box("south", 0, -1, 1, 0, neighbours);
+  scene.interface = stiff(stiffness, stiffness);
+  return scene;
+}
+
+std::vector<Vec2> pressed(double depth) {
+  return {{0, 0}, {-depth, 0}, {0, -depth}, {depth, 0}, {0, depth}};
+}
+
+struct Judged {
+  double exact, voted;
+  double ratio() const { return exact / voted; }
+};
+
+Judged judge(const WorkingScene& text, const std::vector<Vec2>& shift) {
+  const Scene scene = text.read();
+  return {2 / std::sqrt(stiffest_mode(scene, shift)), vote_of(scene).dt};
+}
+
+}  // namespace
+
+TEST_CASE("without contacts the vote is the exact limit of the strain modes", "[simulation][time_step]") {
+  // 1 x 1 block: mass of a strain mode ρ h⁴/12; the stiffest in plane strain is λ + 2G and λ together.
+  WorkingScene text;
+  text.cover = "block";
+  text.bodies = box("a", 0, 0, 1, 1);
+  const double along = 1e10 * 0.75 / (1.25 * 0.5), across = 1e10 * 0.25 / (1.25 * 0.5);
+  const double omega = std::sqrt(12 * (along + across) / 2300);
+  const CriticalStep vote = vote_of(text.read());
+  CHECK(vote.dt == Approx(2 / omega).epsilon(1e-9));
+  CHECK(vote.dt == Approx(2 / std::sqrt(stiffest_mode(text.read(), {{0, 0}}))).epsilon(1e-5));
+  CHECK(vote.limiter == "body 'a': mostly its strain modes");
+}
+
+TEST_CASE("a rigid body that meets nobody has no limit", "[simulation][time_step]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1);
+  CHECK(std::isinf(vote_of(text.read()).dt));
+}
+
+TEST_CASE("a block among four neighbours: the vote is safe and within a factor of three",
+          "[simulation][time_step]") {
+  const std::string fixed = R"("fixed": true)";
+  const Judged among_moving = judge(cross(1e11, "block", ""), pressed(1e-4));
+  const Judged among_fixed = judge(cross(1e11, "block", fixed), pressed(1e-4));
+  const Judged elastic = judge(cross(1e-3, "block", ""), pressed(1e-4));
+  INFO("moving neighbours: true " << among_moving.exact << " s, vote " << among_moving.voted);
+  INFO("fixed neighbours: true " << among_fixed.exact << " s, vote " << among_fixed.voted);
+  INFO("elastic alone: true " << elastic.exact << " s");
+  CHECK(elastic.exact == Approx(2.19e-4).epsilon(0.01));
+  // Swelling evenly between fixed, smooth neighbours: ω² ρ h⁴/12 = (λ + 2G + λ) h² + α h³/2.
+  WorkingScene smooth = cross(1e11, "block", fixed);
+  smooth.interface = stiff(1e11, 0);
+  const double swelling = std::sqrt((1.6e10 + 1e11 / 2) * 12 / 2300);
+  CHECK(judge(smooth, pressed(1e-4)).exact == Approx(2 / swelling).epsilon(1e-3));
+  CHECK(among_moving.ratio() >= 1);
+  CHECK(among_moving.ratio() <= 3);
+  CHECK(among_fixed.ratio() >= 1);
+  CHECK(among_fixed.ratio() <= 3);
+}
+
+TEST_CASE("the vote is an upper bound of the frequency, whatever the bodies", "[simulation][time_step]") {
+  for (const double stiffness : {1e9, 1e10, 1e12}) {
+    for (const char* cover : {"block", "rigid"}) {
+      INFO(cover << ", " << stiffness << " Pa/m");
+      const Judged crossed = judge(cross(stiffness, cover, ""), pressed(1e-4));
+      CHECK(crossed.ratio() >= 1 - 1e-6);
+      CHECK(crossed.ratio() <= 3);
+
+      // Three courses in running bond on a base.
+      WorkingScene wall;
+      wall.cover = cover;
+      wall.interface = stiff(stiffness, stiffness);
+      wall.bodies = box("base", -1, -1, 4, 0, R"("fixed": true)");
+      std::vector<Vec2> shift{{0, 0}};
+      for (int course = 0; course < 3; ++course) {
+        for (int i = 0; i < 3; ++i) {
+          const double left = i + 0.5 * (course % 2);
+          wall.bodies +=
+              ", " + box(fmt::format("c{}b{}", course, i), left, 0.5 * course, left + 1, 0.5 * (course + 1));
+          shift.push_back({-i * 1e-4, -(course + 1) * 1e-4});
+        }
+      }
+      CHECK(judge(wall, shift).ratio() >= 1 - 1e-6);
+
+      // Masses as 1 to 1e6, one on the other.
+      WorkingScene unequal;
+      unequal.cover = cover;
+      unequal.interface = stiff(stiffness, stiffness);
+      unequal.bodies = box("large", 0, 0, 10, 10) + ", " + box("small", 5, 10, 5.01, 10.01);
+      CHECK(judge(unequal, {{0, 0}, {0, -1e-5}}).ratio() >= 1 - 1e-6);
+    }
+  }
+}
+
+TEST_CASE("penalty supports and tangential springs vote, too", "[simulation][time_step]") {
+  WorkingScene held;
+  held.bodies = box("a", 0, 0, 1, 1, R"("surfaces": {"below": [0]})");
+  held.rest =
+      R"("prescribed": [{"body": "a", "surface": "below", "stiffness": 1e12, "displacement": [0, 0]}],)";
+  const Judged support = judge(held, {{0, 0}});
+  CHECK(support.ratio() >= 1 - 1e-6);
+  CHECK(support.ratio() <= 2);
+
+  WorkingScene sheared = cross(1e10, "rigid", "");
+  sheared.interface = stiff(1e10, 1e12);
+  CHECK(judge(sheared, pressed(1e-4)).ratio() >= 1 - 1e-6);
+}
+
+TEST_CASE("a block on a base is stable just below its exact limit and not above", "[simulation][time_step]") {
+  // Rigid, 1 x 1 m, flat on a fixed base without friction: ω² = α L / m, up and down.
+  const double stiffness = 1e10, mass = 2300, sunk = mass * 1 / stiffness;
+  const double limit = 2 / std::sqrt(stiffness / mass);
+  const double disturbed = 1e-3 * sunk;
+  const auto largest_swing = [&](double share) {
+    WorkingScene text;
+    text.gravity = "[0, -1]";
+    text.law = "frictionless";
+    text.interface = R"("normal_stiffness": 1e10, "normal_damping": 0)";
+    text.bodies = box("base", -1, -1, 2, 0, R"("fixed": true)") + ", " +
+                  box("block", 0, -sunk - disturbed, 1, 1 - sunk - disturbed);
+    const double dt = share * limit;
+    text.time = fmt::format(R"({{"end": {:.17g}, "dt": {:.17g}}})", 40 * dt, dt);
+    text.output = fmt::format(R"({{"history": {:.17g}}})", dt);
+    text.rest = R"("limits": {"energy_residual": 1e9},)";
+    Simulation simulation(text.read(), {});
+    CHECK(simulation.critical_dt() <= limit);
+    CHECK(simulation.critical_dt() >= limit / 3);
+    double swing = 0;
+    for (int step = 0; step < 20 && simulation.advance(); ++step) {
+      swing = std::max(swing, std::abs(simulation.body_motion(1).displacement.y - disturbed));
+    }
+    return swing / disturbed;
+  };
+  CHECK(largest_swing(0.5) < 1.3);
+  CHECK(largest_swing(0.98) < 6);  // 1/√(1 − 0.98²) = 5.03: a leapfrog swings wider near its limit
+  CHECK(largest_swing(1.02) > 100);
+}
+
+TEST_CASE("mass ratio 1e6: the small body votes", "[simulation][time_step]") {
+  WorkingScene text;
+  text.interface = stiff(1e10, 0);
+  text.bodies = box("large", 0, 0, 10, 10) + ", " + box("small", 5, 10, 5.01, 10.01);
+  const CriticalStep vote = vote_of(text.read());
+  text.bodies = box("large", 0, 0, 10, 10) + ", " + box("large too", 0, 10, 10, 20);
+  const CriticalStep alone = vote_of(text.read());
+  // ω² ∝ α L/m: lengths as 1e3, masses as 1e6.
+  CHECK(alone.dt / vote.dt > 20);
+  CHECK(alone.dt / vote.dt < 1e3);
+}

@@ -1,0 +1,37 @@
+#include "working_scene.hpp"
+
+#include "scene/read.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace talus {
+
+Registry& shipped_registry() {
+  static Registry registry = [] {
+    Registry all;
+    load_folders(all, std::array{std::filesystem::path(TALUS_PLUGINS)});
+    return all;
+  }();
+  return registry;
+}
+
+std::string box(const std::string& name, double left, double bottom, double right, double top,
+                const std::string& more) {
+  return fmt::format(
+      R"({{"name": "{0}", "material": "rock", "polygon": [[{1:.17g}, {2:.17g}], [{3:.17g}, {2:.17g}],
+          [{3:.17g}, {4:.17g}], [{1:.17g}, {4:.17g}]]{5}{6}}})",
+      name, left, bottom, right, top, more.empty() ? "" : ", ", more);
+}
+
+Scene WorkingScene::read(Registry& registry) const {
+  const std::string text = fmt::format(
+      R"({{"talus": 1, "gravity": {}, "materials": {{"rock": {{{}}}}}, "cover": {{"model": "{}"}},
+          "contact": {{"model": "{}"}}, "interfaces": [{{"between": ["*", "*"], {}}}], {}
+          "bodies": [{}], "monitors": [], "time": {}, "output": {}}})",
+      gravity, material, cover, law, interface, rest, bodies, time, output);
+  return read_scene_text(text, "working.json", registry);
+}
+
+}  // namespace talus
