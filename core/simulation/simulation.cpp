@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
@@ -65,6 +66,7 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
     s.start = s.motion.bodies;
     for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = s.motion.bodies[i].h;
     s.begin(output_time(1));
+    s.warn_of_large_step();
     s.warn_of_initial_overlap();
     s.check_balance();
     return true;
@@ -76,7 +78,6 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
     if (interrupted != nullptr && *interrupted) break;
   }
   if (s.time == target) ++s.output;
-  s.summary.pair_searches = s.contacts.searches();
   s.bring_rotation_up_to_date();
   s.check_balance();
   return true;
@@ -91,8 +92,16 @@ double Simulation::critical_dt() const {
 const EnergyLedger& Simulation::ledger() const {
   return state_->ledger.ledger();
 }
-const RunSummary& Simulation::summary() const {
-  return state_->summary;
+RunSummary Simulation::summary() const {
+  const State& s = *state_;
+  RunSummary summary = s.summary;
+  summary.pair_searches = s.contacts.searches();
+  summary.largest_residual_share = std::max(summary.largest_residual_share, s.ledger.residual_share());
+  if (summary.largest_penetration > 0) {
+    summary.largest_penetration_pair = fmt::format("'{}' and '{}'", s.scene.bodies[s.deepest_pair.first].name,
+                                                   s.scene.bodies[s.deepest_pair.second].name);
+  }
+  return summary;
 }
 std::size_t Simulation::body_count() const {
   return state_->model.bodies.size();

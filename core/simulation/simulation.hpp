@@ -101,7 +101,7 @@ class Simulation {
   std::vector<std::vector<Vec2>> outline(std::size_t body) const;  ///< loops of the body as deformed
   std::vector<Contact> contacts() const;
   const EnergyLedger& ledger() const;
-  const RunSummary& summary() const;
+  RunSummary summary() const;
 
  private:
   struct State;

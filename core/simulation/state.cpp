@@ -11,6 +11,9 @@ namespace {
 
 constexpr double speed_share = 0.1;     ///< of the smallest width, that two bodies may approach in a step
 constexpr double warn_residual = 0.01;  ///< of the energy throughput
+constexpr double rounding = 1e-9;       ///< share by which a step may be stretched rather than split in two
+constexpr double restless =
+    0.4;  ///< of the critical step: above it a bounce gains or loses a tenth of its speed
 constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
 
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
@@ -108,7 +111,7 @@ void Simulation::State::make_plan(double end) {
     summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : critical.limiter;
   }
   const double span = end - time;
-  const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - 1e-12))));
+  const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - rounding))));
   plan = {time, end, span / static_cast<double>(steps), steps, 0};
   summary.dt = std::max(summary.dt, plan.dt);
 }
@@ -136,11 +139,12 @@ void Simulation::State::check_step() const {
   if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
     throw NumericalTrouble(
         fmt::format("the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
-                    "m/s, {:.3g} m in a step of "
-                    "{:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; set /time/dt below {:.3g} "
-                    "or to \"auto\"",
+                    "m/s, {:.3g} m in a "
+                    "step of {:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; the step is {:.2g} "
+                    "of the critical {:.3g} "
+                    "s; take a smaller one, /time/dt below {:.3g} or \"auto\"",
                     time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
-                    model.smallest_width, allowed_dt()));
+                    model.smallest_width, plan.dt / critical.dt, critical.dt, allowed_dt()));
   }
   const ContactTotals& totals = contact_totals;
   if (totals.penetration == 0) return;
@@ -157,15 +161,11 @@ void Simulation::State::check_step() const {
 }
 
 void Simulation::State::check_balance() {
-  if (summary.largest_penetration > 0) {
-    summary.largest_penetration_pair = fmt::format("'{}' and '{}'", scene.bodies[deepest_pair.first].name,
-                                                   scene.bodies[deepest_pair.second].name);
-  }
   const double share = ledger.residual_share();
   if (share > summary.largest_residual_share) {
     if (share > warn_residual && summary.largest_residual_share <= warn_residual) {
       summary.warnings.push_back(fmt::format(
-          "the energy balance misses {:.2g} % of the throughput at t = {:.6g} s", 100 * share, time));
+          "the energy balance misses {:.3g} % of the throughput at t = {:.6g} s", 100 * share, time));
     }
     summary.largest_residual_share = share;
   }
@@ -184,6 +184,15 @@ void Simulation::State::check_balance() {
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
                   critical.limiter));
+}
+
+void Simulation::State::warn_of_large_step() {
+  if (!scene.time.dt || plan.dt <= restless * critical.dt) return;
+  summary.warnings.push_back(
+      fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}); above {} of it contacts "
+                  "gain or lose energy, above "
+                  "1 the run may blow up",
+                  plan.dt, plan.dt / critical.dt, critical.dt, critical.limiter, restless));
 }
 
 void Simulation::State::warn_of_initial_overlap() {

@@ -62,6 +62,7 @@ struct Simulation::State {
   void remember_deepest();
   void check_step() const;
   void check_balance();
+  void warn_of_large_step();
   void warn_of_initial_overlap();
   void bring_rotation_up_to_date();
   void set_initial_velocities();

@@ -42,8 +42,7 @@ Eigen::MatrixXd mass_matrix(const Body& body, double density) {
 }
 
 /// A Bᵀ D B over (u, H): strains xx, yy, 2·xy.
-Eigen::MatrixXd elastic_matrix(const Scene& scene, const Body& body, const SceneMaterial& material) {
-  (void)scene;
+Eigen::MatrixXd elastic_matrix(const Body& body, const SceneMaterial& material) {
   Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
   b(0, 2) = b(1, 5) = b(2, 3) = b(2, 4) = 1;
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor> d;
@@ -169,7 +168,7 @@ CriticalStep vote(const Scene& scene, const Model& model, const ContactStage& co
   const Eigen::MatrixXd mass = mass_matrix(body, material.density);
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   Eigen::MatrixXd elastic = zero;
-  if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(scene, body, material);
+  if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);
   Springs springs{zero, zero};
   if (contacts.law() != nullptr) {
     const Meetings met = meetings(model, index, contacts.interfaces().surface_count);
