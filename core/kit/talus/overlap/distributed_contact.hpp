@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/contact_model.hpp>
+#include <talus/overlap/cell_loads.hpp>
 #include <talus/overlap/cells.hpp>
 #include <talus/overlap/friction.hpp>
 #include <talus/overlap/grouping.hpp>
@@ -8,23 +9,6 @@
 #include <span>
 
 namespace talus::overlap {
-
-/// What the distributed law reads of an interface.
-struct InterfaceParameters {
-  double normal_stiffness = 0;      ///< α_N, Pa/m
-  double tangential_stiffness = 0;  ///< α_T, Pa/m
-  double friction = 0;              ///< μ = tan φ
-  double normal_damping = 0;        ///< share of critical
-  double tangential_damping = 0;
-
-  void add(double weight, const InterfaceParameters& other) {
-    normal_stiffness += weight * other.normal_stiffness;
-    tangential_stiffness += weight * other.tangential_stiffness;
-    friction += weight * other.friction;
-    normal_damping += weight * other.normal_damping;
-    tangential_damping += weight * other.tangential_damping;
-  }
-};
 
 /// Contact by the overlap area (§3): pressure α_N g over the overlap, g the distance to the nearest side of
 /// the master. `Law` says how an interface is read (`Law::interface(values)`), whether there is friction
@@ -38,28 +22,6 @@ class DistributedContact {
   }
 
  private:
-  /// A part of the overlap nearest to one side of the master: the load it puts there and where.
-  struct Cell {
-    const Overlap* overlap;
-    std::uint32_t master;  ///< 0: body a, 1: body b
-    std::uint32_t side;
-    Point normal;  ///< outward of the master
-    Point foot;    ///< on the side, below the centroid
-    double load;   ///< N/m, normal
-    InterfaceParameters interface;
-    std::uint32_t segment_start, segment_end;
-  };
-
-  /// A sub-segment of the slave within a cell (Fig. 5), with its trapezoid load as two end loads.
-  struct Segment {
-    std::uint32_t side;
-    Point at[2];
-    double depth[2];
-    double length;
-    double load[2];  ///< N/m, at the two ends, normal to the slave
-    double share() const { return length * (depth[0] + depth[1]) / 2; }
-  };
-
   void evaluate_pair(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
                      const BodyPair& pair, PairReport& report) {
     const std::uint32_t overlaps = finder_.find(batch, pair);
@@ -401,20 +363,6 @@ class DistributedContact {
     const Point at = load > 0 ? (1 / load) * moment : cells_[0].foot;
     return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
   }
-
-  struct Balance {
-    Point force{0, 0};
-    double moment = 0;  ///< about the first point
-    Point origin{0, 0};
-    bool started = false;
-
-    void add(Point at, Point load) {
-      if (!started) origin = at, started = true;
-      force = force + load;
-      moment += cross(at - origin, load);
-    }
-    double moment_about(Point point) const { return moment - cross(point - origin, force); }
-  };
 
   OverlapGroups finder_;
   CellDivider divider_;
