@@ -49,8 +49,9 @@ std::string default_text(const Parameter& parameter) {
     case ParameterKind::number:
       break;
   }
-  // Sections of a scene say "not set" by a value outside of the range.
-  if (!std::isfinite(parameter.default_value)) return "not set";
+  // Sections of a scene say so by values outside of the range.
+  if (parameter.default_value == automatic) return "auto";
+  if (parameter.default_value == not_set) return "not set";
   return fmt::format("{}", parameter.default_value);
 }
 

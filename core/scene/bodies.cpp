@@ -23,6 +23,8 @@ Choice read_cover(Reading& reading, Section& section, OrderedJson& resolved) {
     accept_all(section);
   }
   section.finish();
+  if (cover.component != nullptr && reading.mistakes.count() == mistakes_before)
+    check_constructor(reading, cover, section.pointer());
   resolved["cover"] = section.resolved;
   return cover;
 }

@@ -34,6 +34,18 @@ Choice read_choice(Reading& reading, Section& section, ComponentKind kind, const
   return {entry, section.values(std::span(entry->component->parameters, entry->component->parameter_count))};
 }
 
+void check_constructor(Reading& reading, const Choice& choice, const std::string& pointer) {
+  const Component& component = *choice.component->component;
+  // Not by make(), whose error names the library's file first: here the scene is at fault.
+  char error[512] = "";
+  if (void* made = component.create(choice.values.data(), error, sizeof error)) {
+    component.destroy(made);
+  } else {
+    reading.mistakes.add(pointer, fmt::format("{} \"{}\" refuses its parameters: {}",
+                                              kind_in_words(component.kind), component.name, error));
+  }
+}
+
 void accept_all(Section& section) {
   for (const std::string& key : section.keys()) section.child(key);
 }

@@ -18,6 +18,10 @@ const RegisteredComponent* find_component(Reading& reading, ComponentKind kind, 
 /// "model" and the parameters that the model declares, all in one section.
 Choice read_choice(Reading& reading, Section& section, ComponentKind kind, const std::string& name);
 
+/// Makes the component once and drops it: what its constructor refuses is a mistake at `pointer`. Call it
+/// where all values of the choice are good.
+void check_constructor(Reading& reading, const Choice& choice, const std::string& pointer);
+
 /// Takes whatever else the section holds: after an unknown model nobody can tell which keys are right.
 void accept_all(Section& section);
 

@@ -53,7 +53,11 @@ ContactSection read_contact(Reading& reading, Section& root) {
         find_component(reading, ComponentKind::contact_model, model, contact.pointer_to("model"));
   }
   if (result.law.component != nullptr) {
-    result.law.values = read_law(contact, *result.law.component->component);
+    const Component& law = *result.law.component->component;
+    const std::size_t mistakes_before = reading.mistakes.count();
+    result.law.values = read_law(contact, law);
+    if (reading.mistakes.count() == mistakes_before)
+      check_constructor(reading, result.law, contact.pointer_to(contact.has(law.name) ? law.name : "model"));
   }
   read_other_laws(reading, contact, result);
   contact.finish();

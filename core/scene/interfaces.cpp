@@ -1,6 +1,5 @@
 #include "scene/interfaces.hpp"
 
-#include "scene/components.hpp"
 #include "scene/nearest.hpp"
 #include "scene/surfaces.hpp"
 #include "scene/tables.hpp"
@@ -129,17 +128,28 @@ void read_rest(Section& section, const ContactSection& contact, std::set<std::st
   }
 }
 
-std::vector<double> read_values(Section& section, const ContactSection& contact,
+/// Without a known law nothing is required, and whatever any law reads is allowed: laws may give one key
+/// different ranges, so that only those of the vocabulary hold.
+void read_without_law(const Registry& registry, Section& section) {
+  for (const Parameter& parameter : table::interface) section.optional_value(parameter);
+  for (const RegisteredComponent& entry : registry.components()) {
+    if (entry.component->kind != ComponentKind::contact_model) continue;
+    for (const Parameter& parameter :
+         std::span(entry.component->interface_parameters, entry.component->interface_parameter_count)) {
+      section.child(parameter.key);
+    }
+  }
+}
+
+std::vector<double> read_values(const Reading& reading, Section& section, const ContactSection& contact,
                                 std::set<std::string>& unread) {
   std::vector<double> values;
   if (contact.law.component != nullptr) {
     const Component& law = *contact.law.component->component;
     values = section.values(std::span(law.interface_parameters, law.interface_parameter_count));
     read_rest(section, contact, unread);
-  } else if (contact.given) {
-    accept_all(section);  // the law is unknown, and with it the keys it reads
   } else {
-    read_rest(section, contact, unread);
+    read_without_law(reading.registry, section);
   }
   section.finish();
   return values;
@@ -248,7 +258,7 @@ void read_interfaces(Reading& reading, Section& root, const ContactSection& cont
   root.list("interfaces", what, [&](const Json& value, const std::string& pointer) {
     Section section(&value, pointer, reading.mistakes);
     if (const auto between = read_between(reading, names, section)) rows.push_back({number, *between});
-    reading.scene.interface_values.push_back(read_values(section, contact, unread));
+    reading.scene.interface_values.push_back(read_values(reading, section, contact, unread));
     resolved.push_back(section.resolved);
     ++number;
   });

@@ -8,6 +8,7 @@ namespace {
 
 SceneMaterial read_material(Reading& reading, const std::string& name, Section& section) {
   SceneMaterial material{name, section.value(table::of(table::material, "density")), {}};
+  const std::size_t mistakes_before = reading.mistakes.count();
   const Json* model = section.child("model");
   if (model != nullptr) {
     const std::string chosen = section.text("model", "the name of a material model");
@@ -18,6 +19,8 @@ SceneMaterial read_material(Reading& reading, const std::string& name, Section& 
     }
   }
   section.finish();
+  if (material.model.component != nullptr && reading.mistakes.count() == mistakes_before)
+    check_constructor(reading, material.model, section.pointer());
   return material;
 }
 

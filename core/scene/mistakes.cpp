@@ -82,10 +82,13 @@ std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string
   const std::map<std::string, Places> places = find_places(text, wanted);
   std::vector<Mistake> placed = std::move(parsed);
   for (const Found& found : found_) {
-    std::string command = found.command;
-    for (const Override& override_ : overrides) {  // the last one that wrote the value
-      if (is_within(found.pointer, override_.pointer)) command = command_of(override_);
+    std::string command;
+    const bool in_text = found.pointer.empty() || places.contains(found.pointer);
+    for (const Override& override_ : overrides) {  // the last one that wrote the value, or made its section
+      const bool made = !in_text && is_within(override_.pointer, found.pointer);
+      if (made || is_within(found.pointer, override_.pointer)) command = command_of(override_);
     }
+    if (!found.command.empty()) command = found.command;
     if (!command.empty()) {
       placed.push_back({command, 0, 0, found.pointer, found.message});
       continue;

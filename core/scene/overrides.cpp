@@ -42,13 +42,47 @@ std::optional<Json> value_of(const std::string& written, std::string& problem) {
   return std::nullopt;
 }
 
-/// The entry of `parent` named by `part`, with the reason where there is none.
-Json* step(Json& parent, const std::string& part, bool may_be_new, std::string& problem) {
+/// Objects that a scene may leave out, by the section they stand in; * stands for any entry of a list.
+struct Omissible {
+  std::string_view section, key;
+};
+constexpr Omissible omissible[] = {
+    {"", "materials"},      {"", "cover"},
+    {"", "contact"},        {"", "settle"},
+    {"", "time"},           {"", "output"},
+    {"", "limits"},         {"/bodies/*", "cover"},
+    {"/bodies/*", "drive"}, {"/bodies/*", "surfaces"},
+};
+
+/// Whether an object `key` may be made in `section`.
+bool can_be_made(const std::string& section, const std::string& key) {
+  // Laws have sections by their names. Which ones exist is not known before the scene's own libraries are
+  // loaded; the reader then tells a name that is none.
+  if (section == "/contact") return key != "model" && key != "roles";
+  return std::any_of(std::begin(omissible), std::end(omissible),
+                     [&](const Omissible& one) { return one.section == section && one.key == key; });
+}
+
+/// The objects that `parent` has or may have.
+std::vector<std::string> known_keys(const Json& parent, const std::string& section) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : parent.items()) keys.push_back(key);
+  for (const Omissible& one : omissible) {
+    if (one.section == section && !parent.contains(one.key)) keys.emplace_back(one.key);
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+/// The entry of `parent` named by `part`, with the reason where there is none. `section` is the way to the
+/// parent.
+Json* step(Json& parent, const std::string& section, const std::string& part, bool is_last,
+           std::string& problem) {
   if (parent.is_object()) {
-    if (may_be_new || parent.contains(part)) return &parent[part];
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : parent.items()) keys.push_back(key);
-    problem = fmt::format("the scene has no \"{}\" here;{} it has: {}", part, did_you_mean(part, keys),
+    if (is_last || parent.contains(part)) return &parent[part];
+    if (can_be_made(section, part)) return &(parent[part] = Json::object());
+    const std::vector<std::string> keys = known_keys(parent, section);
+    problem = fmt::format("the scene has no \"{}\" here;{} known: {}", part, did_you_mean(part, keys),
                           listed(keys));
     return nullptr;
   }
@@ -76,14 +110,25 @@ void apply(Json& scene, const Override& override_, Mistakes& mistakes) {
   std::string problem;
   std::optional<Json> value = value_of(override_.value, problem);
   Json* at = &scene;
-  std::string so_far;
+  std::string so_far, section;  // with the number of an entry, and with * instead
+  Json *made_in = nullptr, *parent = nullptr;
+  std::string made;
   for (std::size_t i = 0; i < parts->size() && at != nullptr && value; ++i) {
-    so_far = below(so_far, (*parts)[i]);
-    at = step(*at, (*parts)[i], i + 1 == parts->size(), problem);
+    const std::string& part = (*parts)[i];
+    const bool is_new = at->is_object() && !at->contains(part);
+    parent = at;
+    at = step(*at, section, part, i + 1 == parts->size(), problem);
+    if (at != nullptr && is_new && made_in == nullptr) {
+      made_in = parent;
+      made = part;
+    }
+    so_far = below(so_far, part);
+    section += parent->is_array() ? "/*" : '/' + part;
   }
   if (at != nullptr && value) {
     *at = std::move(*value);
   } else {
+    if (made_in != nullptr) made_in->erase(made);  // nobody asked for an empty section
     mistakes.add_to_command(command_of(override_), value ? so_far : override_.pointer, problem);
   }
 }

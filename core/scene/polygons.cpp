@@ -44,9 +44,9 @@ struct Edge {
   double right() const { return std::max(from.x, to.x); }
 };
 
-std::string name_of(const Edge& edge) {
-  if (edge.loop == 0) return fmt::format("edge {}", edge.index);
-  return fmt::format("edge {} of hole {}", edge.index, edge.loop - 1);
+std::string name_of(const Edge& edge, bool has_holes) {
+  if (edge.loop != 0) return fmt::format("edge {} of hole {}", edge.index, edge.loop - 1);
+  return fmt::format("edge {}{}", edge.index, has_holes ? " of the outer boundary" : "");
 }
 
 std::vector<Edge> edges_of(const Loops& loops) {
@@ -58,6 +58,18 @@ std::vector<Edge> edges_of(const Loops& loops) {
     }
   }
   return edges;
+}
+
+constexpr const char* no_area = "the polygon has no area: its edges enclose nothing";
+
+/// Whether all vertices lie on one line. Other polygons without area cross themselves, which says more.
+bool is_flat(const Ring& ring, double size) {
+  const Vec2 first = ring[0];
+  const Vec2 farthest = *std::max_element(ring.begin(), ring.end(), [&](Vec2 a, Vec2 b) {
+    return std::hypot(a.x - first.x, a.y - first.y) < std::hypot(b.x - first.x, b.y - first.y);
+  });
+  return std::all_of(ring.begin(), ring.end(),
+                     [&](Vec2 p) { return std::abs(cross(first, farthest, p)) <= 1e-12 * size * size; });
 }
 
 /// Vertices that follow each other on one point, and edges that run back over the one before.
@@ -75,8 +87,8 @@ void faults_of_ring(std::size_t loop, const Ring& ring, std::vector<ShapeFault>&
     }
   }
   if (short_edge) return;
-  if (std::abs(signed_area(ring)) <= 1e-12 * size * size) {
-    faults.push_back({loop, std::nullopt, "the polygon has no area: its edges enclose nothing"});
+  if (is_flat(ring, size)) {
+    faults.push_back({loop, std::nullopt, no_area});
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -110,13 +122,16 @@ std::optional<ShapeFault> crossing_fault(const Loops& loops) {
         continue;
       const bool swap = std::pair(edge.loop, edge.index) < std::pair(other->loop, other->index);
       const Edge &first = swap ? edge : *other, &second = swap ? *other : edge;
+      const bool has_holes = loops.size() > 1;
+      const std::string edges_named = name_of(first, has_holes) + " and " + name_of(second, has_holes);
+      const char* consequence = first.loop == second.loop ? ": the polygon intersects itself" : "";
       if (same(first.from, second.from)) {
         return ShapeFault{second.loop, std::nullopt,
-                          fmt::format("{} and {} start at the same point ({}, {})", name_of(first),
-                                      name_of(second), first.from.x, first.from.y)};
+                          fmt::format("{} start at the same point ({}, {}){}", edges_named, first.from.x,
+                                      first.from.y, consequence)};
       }
       return ShapeFault{second.loop, std::nullopt,
-                        fmt::format("{} and {} cross or touch", name_of(first), name_of(second))};
+                        fmt::format("{} cross or touch{}", edges_named, consequence)};
     }
     active.push_back(&edge);
   }
@@ -170,6 +185,13 @@ std::vector<ShapeFault> shape_faults(const Loops& loops) {
   for (std::size_t loop = 0; loop < loops.size(); ++loop) faults_of_ring(loop, loops[loop], faults);
   if (!faults.empty()) return faults;
   if (const auto crossing = crossing_fault(loops)) return {*crossing};
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    const double size = extent({loops[loop]});
+    if (std::abs(signed_area(loops[loop])) <= 1e-12 * size * size) {
+      faults.push_back({loop, std::nullopt, no_area});
+    }
+  }
+  if (!faults.empty()) return faults;
   faults_of_holes(loops, faults);
   return faults;
 }

@@ -23,6 +23,9 @@ inline constexpr double above_zero = std::numeric_limits<double>::min();
 /// Default value of a parameter of the core's own sections that may be left out and then does nothing.
 inline constexpr double not_set = unbounded;
 
+/// Default value of a parameter that the program chooses by itself unless a number is written: "auto".
+inline constexpr double automatic = -unbounded;
+
 /// "a number [deg] from 0 to 89.9"
 std::string expectation(const Parameter& parameter);
 

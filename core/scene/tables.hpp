@@ -50,13 +50,13 @@ inline constexpr Parameter drive[] = {
 
 /// What interfaces can say whatever law is chosen; a law declares those it reads.
 inline constexpr Parameter interface[] = {
-    number("normal_stiffness", "Pa/m", required, above_zero, unbounded, "Pressure per depth of overlap."),
+    number("normal_stiffness", "Pa/m", required, 0, unbounded, "Pressure per depth of overlap."),
     number("tangential_stiffness", "Pa/m", required, 0, unbounded, "Shear stress per slip while it sticks."),
-    number("friction_angle", "deg", required, 0, 89.9999999, "Angle of Coulomb friction."),
+    number("friction_angle", "deg", required, 0, 89.99995, "Angle of Coulomb friction."),
     number("cohesion", "Pa", 0, 0, unbounded, "Shear strength without pressure."),
     number("tensile_strength", "Pa", 0, 0, unbounded, "Tension at which the interface opens."),
-    number("normal_damping", "-", required, 0, unbounded, "Normal damping as a share of critical."),
-    number("tangential_damping", "-", required, 0, unbounded, "Tangential damping as a share of critical."),
+    number("normal_damping", "-", required, 0, 10, "Normal damping as a share of critical."),
+    number("tangential_damping", "-", required, 0, 10, "Tangential damping as a share of critical."),
 };
 
 inline constexpr Parameter load[] = {
@@ -79,7 +79,7 @@ inline constexpr Parameter settle[] = {
 
 inline constexpr Parameter time[] = {
     number("end", "s", required, above_zero, unbounded, "When the run ends."),
-    number("dt", "s", not_set, above_zero, unbounded,
+    number("dt", "s", automatic, above_zero, unbounded,
            "Time step; \"auto\" takes it from votes of bodies and contacts."),
     number("safety", "-", 0.2, above_zero, 0.4,
            "Share of the critical time step that is taken when automatic."),

@@ -1,11 +1,29 @@
 #include "scene/sample.hpp"
 
+#include <cstdio>
 #include <stdexcept>
 
 namespace talus::sample {
 namespace {
 
-void* make_nothing(const double*, char*, std::size_t) noexcept {
+int anything;
+
+void* make_anything(const double*, char*, std::size_t) noexcept {
+  return &anything;
+}
+void* make_shear(const double* values, char* error, std::size_t error_size) noexcept {
+  if (values[0] == 0 || values[1] == 0) return &anything;
+  std::snprintf(error, error_size, "strict needs return_mapping");
+  return nullptr;
+}
+void* make_elastic(const double* values, char* error, std::size_t error_size) noexcept {
+  if (values[1] <= 0.45) return &anything;
+  std::snprintf(error, error_size, "poisson_ratio locks the block");
+  return nullptr;
+}
+void* make_block(const double* values, char* error, std::size_t error_size) noexcept {
+  if (values[0] < 3) return &anything;
+  std::snprintf(error, error_size, "tilt turns the triangle upside down");
   return nullptr;
 }
 void destroy_nothing(void*) noexcept {}
@@ -33,14 +51,14 @@ constexpr Parameter block_parameters[] = {number("tilt", "deg", 0, -180, 180, "A
 
 constexpr Component components[] = {
     {ComponentKind::contact_model, "shear", "A law with friction.", shear_parameters, 2, shear_interface, 5,
-     make_nothing, destroy_nothing},
-    {ComponentKind::contact_model, "smooth", "A law without.", nullptr, 0, smooth_interface, 2, make_nothing,
+     make_shear, destroy_nothing},
+    {ComponentKind::contact_model, "smooth", "A law without.", nullptr, 0, smooth_interface, 2, make_anything,
      destroy_nothing},
-    {ComponentKind::material, "linear_elastic", "Hooke.", elastic_parameters, 2, nullptr, 0, make_nothing,
+    {ComponentKind::material, "linear_elastic", "Hooke.", elastic_parameters, 2, nullptr, 0, make_elastic,
      destroy_nothing},
-    {ComponentKind::cover_builder, "block", "One triangle.", block_parameters, 1, nullptr, 0, make_nothing,
+    {ComponentKind::cover_builder, "block", "One triangle.", block_parameters, 1, nullptr, 0, make_block,
      destroy_nothing},
-    {ComponentKind::cover_builder, "rigid", "No strain.", nullptr, 0, nullptr, 0, make_nothing,
+    {ComponentKind::cover_builder, "rigid", "No strain.", nullptr, 0, nullptr, 0, make_anything,
      destroy_nothing},
 };
 

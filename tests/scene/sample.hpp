@@ -6,8 +6,8 @@
 
 namespace talus::sample {
 
-/// Descriptors of two laws, a material and two covers, as libraries would bring them. Nothing is made from
-/// them.
+/// Descriptors of two laws, a material and two covers, as libraries would bring them. Their
+/// constructors refuse some values, and what they make is only good to be dropped.
 Registry registry();
 
 /// A scene that passes: a block on a fixed ramp.

@@ -1,8 +1,12 @@
 #include "scene/sample.hpp"
+#include "scene/tables.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <numbers>
+#include <span>
+#include <string_view>
 
 using namespace talus;
 
@@ -109,4 +113,24 @@ TEST_CASE("fixed bodies alone need no contact", "[scene]") {
       sample::read(sample::good_but("\"material\": \"rock\"", "\"material\": \"rock\", \"fixed\": true"),
                    {{{"/loads", "[]"}}, false});
   CHECK(scene.contact.component == nullptr);
+}
+
+TEST_CASE("the vocabulary has the units and ranges of the laws that come along", "[scene]") {
+  Registry installed;
+  load_folders(installed, std::array{std::filesystem::path(TALUS_PLUGINS)});
+  std::size_t compared = 0;
+  for (const RegisteredComponent& entry : installed.components()) {
+    const Component& law = *entry.component;
+    for (const Parameter& read : std::span(law.interface_parameters, law.interface_parameter_count)) {
+      for (const Parameter& known : table::interface) {
+        if (std::string_view(known.key) != read.key) continue;
+        CAPTURE(law.name, read.key);
+        CHECK(std::string_view(known.unit) == read.unit);
+        CHECK(known.minimum == read.minimum);
+        CHECK(known.maximum == read.maximum);
+        ++compared;
+      }
+    }
+  }
+  CHECK(compared >= 10);
 }

@@ -160,6 +160,34 @@ const BadScene bad_scenes[] = {
      10,
      100,
      {"did you mean \"friction_angle\"", "cohesion"}},
+    {"an interface key that only the vocabulary knows is held to its range",
+     "\"normal_damping\": 0.3",
+     "\"normal_damping\": 0.3, \"tangential_damping\": 11",
+     "/interfaces/0/tangential_damping",
+     10,
+     122,
+     {"11 is out of range", "[-] from 0 to 10"}},
+    {"parameters that the law's constructor refuses are named with its words",
+     "\"friction_rule\": \"paper\"",
+     "\"friction_rule\": \"paper\", \"strict\": true",
+     "/contact/shear",
+     8,
+     42,
+     {"contact model \"shear\"", "strict needs return_mapping"}},
+    {"parameters that the material's constructor refuses are named with its words",
+     "\"young_modulus\": 1e10",
+     "\"young_modulus\": 1e10, \"poisson_ratio\": 0.49",
+     "/materials/rock",
+     5,
+     13,
+     {"material \"linear_elastic\"", "poisson_ratio locks the block"}},
+    {"parameters that the constructor of a body's cover refuses are named with its words",
+     "\"material\": \"rock\"",
+     "\"material\": \"rock\", \"cover\": {\"model\": \"block\", \"tilt\": 180}",
+     "/bodies/1/cover",
+     14,
+     97,
+     {"cover builder \"block\"", "upside down"}},
     {"an interface that lacks what the law requires is named",
      ", \"normal_damping\": 0.3",
      "",
@@ -248,4 +276,35 @@ TEST_CASE("a model whose library was refused says so", "[scene]") {
   CHECK_THROWS_WITH(read_scene_text(sample::good_but("{\"model\": \"shear\"", "{\"model\": \"mylaw\""),
                                     "scene.json", registry),
                     Catch::Contains("/plugins/libmylaw.so was refused: found ABI 7, wanted 1"));
+}
+
+TEST_CASE("with an unknown law the mistakes in interfaces are told all the same", "[scene]") {
+  std::string text = sample::good_but("{\"model\": \"shear\"", "{\"model\": \"sheer\"");
+  const std::string row = "\"normal_stiffness\": 1e10, \"friction_angle\": 20, \"normal_damping\": 0.3}";
+  text.replace(text.find(row), row.size(),
+               "\"friction_angle\": 90, \"friction_angel\": 20, \"dilation\": 1, \"cohesion\": -1}");
+  const std::vector<Mistake> found = sample::mistakes(text);
+  REQUIRE(found.size() == 4);
+  const BadScene expected[] = {
+      {"", "", "", "/contact/model", 8, 24, {"did you mean \"shear\""}},
+      {"", "", "", "/interfaces/0/friction_angle", 10, 47, {"90 is out of range", "from 0 to 89.99995"}},
+      {"", "", "", "/interfaces/0/friction_angel", 10, 51, {"did you mean \"friction_angle\"", "dilation"}},
+      {"", "", "", "/interfaces/0/cohesion", 10, 100, {"-1 is out of range", "[Pa]"}}};
+  for (std::size_t i = 0; i < found.size(); ++i) check(found[i], expected[i], text);
+}
+
+TEST_CASE("with a law that is not named at all the keys of its interfaces are checked too", "[scene]") {
+  std::string text = sample::good_but("\"model\": \"shear\", ", "");
+  text.replace(text.find("\"normal_damping\": 0.3"), 16, "\"normal_dampin\"");
+  const std::vector<Mistake> found = sample::mistakes(text);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].pointer == "/contact");
+  CHECK(found[1].pointer == "/interfaces/0/normal_dampin");
+}
+
+TEST_CASE("a constructor is not asked as long as its section holds another mistake", "[scene]") {
+  const auto found = sample::mistakes(sample::good_but(
+      "\"friction_rule\": \"paper\"", "\"friction_rule\": \"paper\", \"strict\": true, \"strickt\": true"));
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].pointer == "/contact/shear/strickt");
 }

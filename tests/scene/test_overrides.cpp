@@ -12,7 +12,7 @@ ReadOptions set(std::vector<Override> overrides) {
 
 }  // namespace
 
-TEST_CASE("--set writes numbers, words and lists before validation", "[scene]") {
+TEST_CASE("Overrides write numbers, words and lists before validation", "[scene]") {
   const Scene scene = sample::read(sample::good, set({{"/time/dt", "1e-4"},
                                                       {"/contact/shear/friction_rule", "return_mapping"},
                                                       {"/bodies/1/polygon/2/1", "1.5"},
@@ -81,4 +81,67 @@ TEST_CASE("a --set of infinity is refused", "[scene]") {
   for (const char* value : {"1e999", "inf", "NaN"}) {
     CHECK(sample::mistakes(sample::good, set({{"/time/end", value}})).size() == 1);
   }
+}
+
+TEST_CASE("a --set makes the sections on its way that a scene may leave out", "[scene]") {
+  const Scene scene = sample::read(sample::good, set({{"/limits/penetration", "0.1"},
+                                                      {"/output/history", "0.5"},
+                                                      {"/settle/duration", "2"},
+                                                      {"/settle/damping", "3"},
+                                                      {"/contact/smooth", "{}"},
+                                                      {"/bodies/1/cover/model", "rigid"},
+                                                      {"/bodies/1/drive/x", "4"},
+                                                      {"/bodies/1/surfaces/base", "[0]"}}));
+  CHECK(scene.limits.penetration == 0.1);
+  CHECK(scene.limits.energy_residual == 0.05);
+  CHECK(scene.output.history == 0.5);
+  REQUIRE(scene.settle.has_value());
+  CHECK(scene.settle->damping == 3);
+  CHECK(std::string(scene.bodies[1].cover.component->component->name) == "rigid");
+  CHECK(scene.bodies[1].support.x == 4);
+  const std::string law = "{\"model\": \"shear\", \"shear\": {\"friction_rule\": \"paper\"}}";
+  const std::string bare = sample::good_but(law, "{\"model\": \"shear\"}");
+  CHECK(sample::read(bare, set({{"/contact/shear/friction_rule", "paper"}})).contact.values[0] == 1);
+}
+
+TEST_CASE("a --set into a section of a name that nothing has names the nearest", "[scene]") {
+  const auto found = sample::mistakes(sample::good, set({{"/limts/penetration", "0.1"},
+                                                         {"/bodies/1/covr/model", "rigid"},
+                                                         {"/contact/shaer/friction_rule", "paper"}}));
+  REQUIRE(found.size() == 3);
+  CHECK_THAT(found[0].text(), Catch::StartsWith("--set /limts/penetration=0.1: /limts: the scene has no "
+                                                "\"limts\" here; did you mean \"limits\"?"));
+  CHECK(found[1].pointer == "/bodies/1/covr");
+  CHECK_THAT(found[1].message, Catch::Contains("did you mean \"cover\"?"));
+  CHECK_THAT(found[2].text(),
+             Catch::StartsWith("--set /contact/shaer/friction_rule=paper: /contact/shaer: unknown key") &&
+                 Catch::Contains("did you mean \"shear\"?"));
+}
+
+TEST_CASE("a --set makes no sections within others and no lists, and leaves nothing behind when it fails",
+          "[scene]") {
+  std::string text =
+      sample::good_but("\"loads\": [{\"body\": \"block\", \"point\": [2, 2], \"force\": [1, 0]}],", "");
+  const auto found = sample::mistakes(
+      text,
+      set({{"/settle/deep/duration", "1"}, {"/loads/0/force", "[1, 0]"}, {"/materials/rok/density", "1"}}));
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].pointer == "/settle/deep");
+  CHECK(found[1].pointer == "/loads");
+  CHECK(found[2].pointer == "/materials/rok");
+  for (const Mistake& mistake : found) CHECK(mistake.line == 0);
+}
+
+TEST_CASE("what lacks in a section that a --set made is told of the --set", "[scene]") {
+  const auto found = sample::mistakes(sample::good, set({{"/settle/duration", "1"}}));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0].text(),
+             Catch::StartsWith("--set /settle/duration=1: /settle: required key \"damping\" is missing"));
+}
+
+TEST_CASE("of two --set that fail alike each is told", "[scene]") {
+  const auto found = sample::mistakes(sample::good, set({{"/contac/model", "a"}, {"/contac/roles", "b"}}));
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].file == "--set /contac/model=a");
+  CHECK(found[1].file == "--set /contac/roles=b");
 }

@@ -91,7 +91,7 @@ TEST_CASE("an overlap counts from a millionth of the width on", "[scene]") {
   CHECK(overlaps({{rectangle(0, 0, 1, 1)}, {rectangle(0, 1 - 1e-5, 1, 1)}}).size() == 1);
 }
 
-TEST_CASE("a body within the hole of another does not overlap it; one within the other does", "[scene]") {
+TEST_CASE("a body within the hole of another does not overlap it, but one within the other does", "[scene]") {
   const Loops ring{rectangle(0, 0, 3, 3), rectangle(1, 1, 1, 1)};
   CHECK(overlaps({ring, {rectangle(1, 1, 1, 1)}}).empty());
   CHECK(overlaps({ring, {rectangle(1.25, 1.25, 1, 0.5)}}).front().area == Approx(0.125));
