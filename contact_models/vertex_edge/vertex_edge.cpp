@@ -211,7 +211,9 @@ class VertexEdge final : public ContactModel {
     const double slip = dot(relative, along) * batch.dt;
 
     const double closing = -dot(relative, normal);
-    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * pair.reduced_mass);
+    // A flat contact stands on two such springs, and its ratio is meant of the two together.
+    const double carried_mass = pair.reduced_mass / 2;
+    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
     const double viscous = std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth));
 
     const double old_stored = history.stored, old_applied = history.applied;
@@ -236,7 +238,7 @@ class VertexEdge final : public ContactModel {
     double tangential = force.tangential;
     if (!force.slips && spring.tangential > 0 && spring.friction + spring.cohesion > 0) {
       const double shear_dashpot =
-          2 * interface.tangential_damping * std::sqrt(spring.tangential * pair.reduced_mass);
+          2 * interface.tangential_damping * std::sqrt(spring.tangential * carried_mass);
       const double limit = batch.hold_stick
                                ? std::numeric_limits<double>::infinity()
                                : spring.cohesion + spring.friction * std::max(0.0, force.normal + viscous);

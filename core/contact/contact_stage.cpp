@@ -186,7 +186,8 @@ ContactTotals ContactStage::gather(const Model& model, MotionState& motion) {
     totals.stored += report.stored;
     totals.slip_loss += report.slip_loss;
     // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
-    totals.damping_loss += (report.damping_power + std::sqrt(report.damping_power * damping_power_[i])) / 2;
+    totals.damping_loss +=
+        (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power_[i]))) / 2;
     damping_power_[i] = report.damping_power;
     if (!(report.penetration <= totals.penetration)) {
       totals.penetration = report.penetration;

@@ -107,7 +107,7 @@ TEST_CASE("the consistent mass of three patches falls apart into m and rho J", "
   }
 }
 
-TEST_CASE("a rectangle has its true rotational inertia; row sums would give twelve times as much",
+TEST_CASE("a rectangle has its true rotational inertia, row sums would give twelve times as much",
           "[model][mass]") {
   for (const double width : {1.0, 0.5, 20.0}) {
     const double height = 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -91,7 +92,7 @@ class Clipper {
     }
     if (outside == 0) return;
     clipped_.clear();
-    clipped_.make_room(n + 2);
+    clipped_.make_room(2 * n);  // a sliver that rounding bent can be cut more than twice
     for (std::size_t i = 0; i < n && outside < n; ++i) {
       const std::size_t j = polygon.next(i);
       const Corner& here = polygon[i];
@@ -117,14 +118,16 @@ struct AreaCentroid {
   Point centroid;
 };
 
-/// Area and centroid about the first corner, so that a sliver far from the origin loses no digits.
+/// Area and centroid about the first corner, so that a sliver far from the origin loses no digits. A sliver
+/// as thin as the rounding of its corners is not quite convex: triangles that come out negative count
+/// nothing, or areas would cancel where moments do not and the centroid would lie anywhere.
 inline AreaCentroid area_centroid(const Polygon& polygon) {
   double twice_area = 0;
   Point moment{0, 0};
   const Point origin = polygon[0].at;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Point p = polygon[i].at - origin, q = polygon[i + 1].at - origin;
-    const double triangle = cross(p, q);
+    const double triangle = std::max(0.0, cross(p, q));
     twice_area += triangle;
     moment = moment + triangle * (p + q);
   }

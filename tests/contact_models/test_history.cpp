@@ -1,0 +1,98 @@
+#include "contact_models/pairs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::bench;
+
+namespace {
+
+bool same_bits(const Evaluation& p, const Evaluation& q) {
+  if (p.corners.size() != q.corners.size() || p.history != q.history) return false;
+  for (std::size_t i = 0; i < p.corners.size(); ++i) {
+    if (p.corners[i].force.x != q.corners[i].force.x || p.corners[i].force.y != q.corners[i].force.y) {
+      return false;
+    }
+  }
+  return p.pairs[0].stored == q.pairs[0].stored && p.pairs[0].slip_loss == q.pairs[0].slip_loss;
+}
+
+void stop(std::vector<HeldBody>& bodies) {
+  for (HeldBody& body : bodies) body.motion.velocity = {}, body.motion.rate = {};
+}
+
+}  // namespace
+
+TEST_CASE("The same history gives the same bits: all state lives with the host", "[laws]") {
+  for (const std::string& law : laws()) {
+    for (const HeldPair& pair : random_pairs(36)) {
+      INFO(law << ", " << pair.name);
+      LawBench bench(law), disturbed(law);
+      bench.bodies = disturbed.bodies = pair.bodies;
+      bench.step();
+      disturbed.step();
+      LawBench other(law);  // something else in between
+      other.bodies = chamfered(0.01, 44, 4e-3).bodies;
+      other.step();
+      for (int i = 0; i < 3; ++i) disturbed.look(5e-4);
+      CHECK(same_bits(bench.step(), disturbed.step()));
+    }
+  }
+}
+
+TEST_CASE("Bodies that stand still keep their tangential force", "[laws]") {
+  for (const std::string& law : laws()) {
+    for (const HeldPair& pair : random_pairs(72)) {
+      INFO(law << ", " << pair.name);
+      LawBench bench(law);
+      bench.bodies = pair.bodies;
+      bench.step();
+      bench.step();
+      stop(bench.bodies);
+      bench.step();  // the dashpots let go, and with them may go a part of the limit
+      const Evaluation first = bench.step();
+      for (int i = 0; i < 5; ++i) CHECK(same_bits(first, bench.step()));
+    }
+  }
+}
+
+TEST_CASE("While friction is held stuck it takes what it must, past the limit", "[laws]") {
+  for (const std::string& law : laws()) {
+    if (law == "frictionless") continue;
+    INFO(law);
+    LawBench bench(law, undamped_interface());
+    bench.bodies = {box(-1, 0, 2, 1), box(0, 0.999, 1, 2)};
+    bench.hold_stick = true;
+    bench.step();
+    bench.bodies[1].motion.velocity = {5, 0};
+    const Vec2 held = bench.step(1e-3).on(1);  // 5 mm of slip
+    CHECK(-held.x > 2 * std::tan(0.4363) * held.y);
+    CHECK(-held.x == Approx(7e8 * 5e-3).epsilon(0.01));
+    bench.hold_stick = false;
+    bench.bodies[1].motion.velocity = {};
+    const Vec2 freed = bench.step().on(1);
+    CHECK(-freed.x == Approx(std::tan(25 * 3.14159265358979323846 / 180) * freed.y).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("A contact that opens forgets, and its spring energy is booked as lost", "[laws]") {
+  for (const std::string& law : laws()) {
+    if (law == "frictionless") continue;
+    INFO(law);
+    LawBench bench(law, undamped_interface());
+    bench.bodies = {box(-1, 0, 2, 1), box(0, 0.999, 1, 2)};
+    bench.step();
+    bench.bodies[1].motion.velocity = {0.1, 0};
+    const Evaluation sheared = bench.step(1e-3);
+    const double spring = 7e8 * 1e-4 * 1e-4 / 2;
+    CHECK(sheared.pairs[0].stored == Approx(1e9 * 1e-6 / 2 + spring).epsilon(1e-3));
+    bench.bodies[1].motion.velocity = {0, 2};
+    const Evaluation opened = bench.step(1e-3);
+    CHECK(opened.size() == 0);
+    CHECK(opened.pairs[0].slip_loss == Approx(spring).epsilon(1e-3));
+    bench.bodies[1].motion.velocity = {0, -2};
+    CHECK(std::abs(bench.step(1e-3).on(1).x) < 1e-6);
+  }
+}

@@ -1,0 +1,129 @@
+#include "contact_models/pairs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::bench;
+
+namespace {
+
+/// A block of 1 x 1 m on a wide base; as deep as wanted.
+std::vector<HeldBody> block_on_base(double depth) {
+  return {box(-2, -1, 2, 0), box(-0.5, -depth, 0.5, 1 - depth)};
+}
+
+Values bonded() {
+  return with(undamped_interface(), {{"cohesion", 2e5}, {"tensile_strength", 1e5}});
+}
+
+Evaluation shifted(LawBench& bench, Vec2 by, double dt = 1e-4) {
+  bench.bodies[1].motion.velocity = {by.x / dt, by.y / dt};
+  return bench.step(dt);
+}
+
+}  // namespace
+
+TEST_CASE("Springs per area: the corners of a side carry alpha L together", "[vertex_edge]") {
+  LawBench bench("vertex_edge");
+  bench.bodies = block_on_base(1e-3);
+  const Evaluation e = bench.look();
+  CHECK(e.contacts.size() == 2);
+  CHECK(e.on(1).y == Approx(1e6).epsilon(1e-9));
+}
+
+TEST_CASE("Springs given directly count per vertex, whatever its edges", "[vertex_edge]") {
+  LawBench bench("vertex_edge", undamped_interface(),
+                 {{"calibration", 1}, {"normal_spring", 3e8}, {"tangential_spring", 2e8}});
+  bench.bodies = block_on_base(1e-3);
+  CHECK(bench.step().on(1).y == Approx(2 * 3e8 * 1e-3).epsilon(1e-9));
+  CHECK(shifted(bench, {1e-4, 0}).on(1).x == Approx(-2 * 2e8 * 1e-4).epsilon(1e-9));
+}
+
+TEST_CASE("A bonded contact holds up to its tensile strength and then breaks for good", "[vertex_edge]") {
+  LawBench bench("vertex_edge", bonded());
+  bench.bodies = block_on_base(0);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  // sigma_t / alpha is 1e-4 m.
+  CHECK(shifted(bench, {0, 9.9e-5}).on(1).y == Approx(-1e9 * 9.9e-5).epsilon(1e-9));
+  CHECK(shifted(bench, {0, -5e-5}).on(1).y == Approx(-1e9 * 4.9e-5).epsilon(1e-9));
+  CHECK(shifted(bench, {0, 5.2e-5}).size() == 0);   // 1.01e-4 m
+  CHECK(shifted(bench, {0, -9.1e-5}).size() == 0);  // 1e-5 m of gap: no bond any more
+  CHECK(shifted(bench, {0, -2e-5}).on(1).y == Approx(1e9 * 1e-5).epsilon(1e-6));
+}
+
+TEST_CASE("A bonded contact opened in one stride breaks as well", "[vertex_edge]") {
+  LawBench bench("vertex_edge", bonded());
+  bench.bodies = block_on_base(0);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  CHECK(shifted(bench, {0, 0.1}).size() == 0);
+  CHECK(shifted(bench, {0, -0.1 + 5e-5}).size() == 0);
+}
+
+TEST_CASE("Cohesion adds to friction until the contact slips once", "[vertex_edge]") {
+  const double mu = std::tan(25 * 3.14159265358979323846 / 180), load = 1e6;
+  LawBench bench("vertex_edge", bonded());
+  bench.bodies = block_on_base(1e-3);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  const double limit = mu * load + 2e5, slip = limit / 7e8;
+  CHECK(shifted(bench, {0.99 * slip, 0}).on(1).x == Approx(-0.99 * limit).epsilon(1e-9));
+  const Evaluation broken = shifted(bench, {0.02 * slip, 0});
+  CHECK(broken.on(1).x == Approx(-mu * load).epsilon(1e-9));
+  CHECK(broken.pairs[0].slip_loss > 0);
+  CHECK(shifted(bench, {slip, 0}).on(1).x == Approx(-mu * load).epsilon(1e-9));
+}
+
+TEST_CASE("A contact that comes about later is not bonded", "[vertex_edge]") {
+  LawBench bench("vertex_edge", bonded());
+  bench.bodies = block_on_base(-1e-3);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  CHECK(shifted(bench, {0, -2e-3}).on(1).y > 0);
+  CHECK(shifted(bench, {0, 1.05e-3}).size() == 0);
+}
+
+TEST_CASE("Corner to corner: each stands on the other's edge and counts half", "[vertex_edge]") {
+  LawBench bench("vertex_edge", undamped_interface());
+  bench.bodies = {box(-1, -1, 0, 0), box(-2e-3, -1e-3, 0.998, 0.999)};
+  const Evaluation e = bench.look();
+  REQUIRE(e.contacts.size() == 2);
+  // Both vertices are least deep behind a level side: the force is upright.
+  CHECK(e.on(1).y > 0);
+  CHECK(std::abs(e.on(1).x) <= 1e-9 * e.on(1).y);
+  CHECK(e.contacts[0].py == Approx(e.contacts[1].py).epsilon(1e-9));
+}
+
+TEST_CASE("A corner of one block against the side of another passes its end without a jump",
+          "[vertex_edge]") {
+  // The upper block slides off the end of the lower: force goes down as its corner nears the edge and stays
+  // finite.
+  LawBench bench("vertex_edge", undamped_interface());
+  bench.bodies = {box(-1, -1, 0, 0), box(-0.2, -1e-3, 0.8, 1)};
+  double before = bench.step().on(1).y;
+  for (int i = 0; i < 150; ++i) {
+    const Evaluation e = shifted(bench, {1e-3, 0});
+    CHECK(std::abs(e.on(1).y - before) <= 0.02 * 1e6);
+    before = e.on(1).y;
+  }
+}
+
+TEST_CASE("A vertex passes the joint between collinear edges without a kick", "[vertex_edge]") {
+  LawBench whole("vertex_edge"), divided("vertex_edge");
+  whole.bodies = block_on_base(1e-3);
+  divided.bodies = block_on_base(1e-3);
+  divided.bodies[0] = held({{-2, -1}, {2, -1}, {2, 0}, {0.55, 0}, {0.51, 0}, {-0.48, 0}, {-2, 0}});
+  // The centres differ by round-off; what counts are the forces.
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 p = shifted(whole, {1e-3, 0}).on(1), q = shifted(divided, {1e-3, 0}).on(1);
+    CHECK(p.x == Approx(q.x).epsilon(1e-9));
+    CHECK(p.y == Approx(q.y).epsilon(1e-9));
+  }
+}

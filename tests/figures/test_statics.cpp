@@ -1,0 +1,71 @@
+#include "figures/runs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::figures;
+
+TEST_CASE("Column: the top settles by its joints and its blocks, and by nothing else", "[figures]") {
+  // rho g h/alpha n(n+1)/2 and rho g h² (1 − nu²)/E (n²/2 − 1/4), n = 10.
+  const double joints = 2300 * 10 / 1e10 * 55;
+  const double blocks = 2300 * 10 * (1 - 0.0625) / 1e10 * (50 - 0.25);
+  for (const std::string law : {"overlap_area", "frictionless", "vertex_edge"}) {
+    const Course course = run(shipped("column", {{"/contact/model", law}}), "b10");
+    const Motion& last = course.motion.back();
+    INFO(fmt::format("{}: {:.6e} of {:.6e} m, aside {:.1e} m, speed {:.1e} m/s", law, -last.displacement.y,
+                     joints + blocks, last.displacement.x, std::hypot(last.velocity.x, last.velocity.y)));
+    CHECK(-last.displacement.y == Approx(joints + blocks).epsilon(law == "vertex_edge" ? 0.08 : 0.01));
+    CHECK(std::abs(last.displacement.x) < 1e-12);
+    CHECK(std::abs(last.rotation) < 1e-12);
+    CHECK(std::hypot(last.velocity.x, last.velocity.y) < 1e-6);
+  }
+}
+
+TEST_CASE("Brick wall: at rest before 1 s, settled as its header says, left as right", "[slow][figures]") {
+  const Scene scene = shipped("brick_wall", {{"/time/end", "0.4"}});  // at rest well before its end at 1 s
+  const std::uint32_t left = body_number(scene, "c20b1"), right = body_number(scene, "c20b21");
+  Motion l{}, r{};
+  const Course course = run(scene, "c20b11", {}, [&](const Simulation& s) {
+    l = s.body_motion(left);
+    r = s.body_motion(right);
+  });
+  const Motion& top = course.motion.back();
+  INFO(fmt::format("{:.6e} m, speed {:.1e} m/s, left {:.6e}, right {:.6e}", -top.displacement.y,
+                   std::hypot(top.velocity.x, top.velocity.y), l.displacement.x, r.displacement.x));
+  CHECK(-top.displacement.y > 0.000333);
+  CHECK(-top.displacement.y < 0.000353);
+  CHECK(std::hypot(top.velocity.x, top.velocity.y) < 1e-4);
+  CHECK(l.displacement.x == Approx(-r.displacement.x).margin(1e-9));
+  CHECK(l.displacement.y == Approx(r.displacement.y).margin(1e-9));
+}
+
+TEST_CASE("Series compression: a stiffness ratio of 1e6 settles by the soft part", "[figures]") {
+  // Soft block under a stiff one: its own weight and that above, over its free-to-widen modulus, and two
+  // joints.
+  const std::string text = R"({
+    "talus": 1, "gravity": [0, -10],
+    "materials": {
+      "soft": {"density": 2300, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0},
+      "stiff": {"density": 2300, "model": "linear_elastic", "young_modulus": 1e14, "poisson_ratio": 0}
+    },
+    "contact": {"model": "overlap_area"},
+    "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e10, "tangential_stiffness": 1e10,
+                    "friction_angle": 30, "normal_damping": 0.3, "tangential_damping": 0.3}],
+    "bodies": [
+      {"name": "base", "polygon": [[-1, -1], [2, -1], [2, 0], [-1, 0]], "material": "soft", "fixed": true},
+      {"name": "low", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "material": "soft"},
+      {"name": "top", "polygon": [[0, 1], [1, 1], [1, 2], [0, 2]], "material": "stiff"}
+    ],
+    "damping": 150,
+    "time": {"end": 0.25}
+  })";
+  const Course course = run(from_text(text), "top");
+  const double weight = 2300 * 10;
+  const double expected = 2 * weight / 1e10 + weight / 1e10 + 1.5 * weight / 1e8;
+  INFO(fmt::format("{:.6e} of {:.6e} m", -course.motion.back().displacement.y, expected));
+  CHECK(-course.motion.back().displacement.y == Approx(expected).epsilon(0.005));
+}
