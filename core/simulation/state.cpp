@@ -12,8 +12,8 @@ namespace {
 constexpr double speed_share = 0.1;     ///< of the smallest width, that two bodies may approach in a step
 constexpr double warn_residual = 0.01;  ///< of the energy throughput
 constexpr double rounding = 1e-9;       ///< share by which a step may be stretched rather than split in two
-constexpr double restless =
-    0.4;  ///< of the critical step: above it a bounce gains or loses a tenth of its speed
+/// Of the critical step: above it a bounce gains or loses a tenth of its speed.
+constexpr double restless = 0.4;
 constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
 
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
