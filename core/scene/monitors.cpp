@@ -25,7 +25,7 @@ void check_quantity(Mistakes& mistakes, const std::string& pointer, const std::s
 }
 
 std::vector<std::string> read_quantities(Reading& reading, Section& section) {
-  const std::vector<std::string> unasked{"ux", "uy", "vx", "vy", "speed", "rotation"};
+  std::vector<std::string> unasked{"ux", "uy", "vx", "vy", "speed", "rotation"};
   const Json* written = section.child("quantities");
   section.resolved["quantities"] = unasked;
   if (written == nullptr) return unasked;
