@@ -1,6 +1,7 @@
 #include "scene/bodies.hpp"
 
 #include "scene/components.hpp"
+#include "scene/discontinuities.hpp"
 #include "scene/loops.hpp"
 #include "scene/tables.hpp"
 
@@ -42,7 +43,7 @@ bool cover_is_needed(const Json* bodies) {
 }
 
 /// "fix" and "drive".
-Support read_support(Reading& reading, Section& body, bool fixed) {
+Support read_support(Reading& reading, Section& body) {
   Support support;
   const auto axis = [&](std::string_view name) -> std::optional<double>& {
     return name == "x" ? support.x : name == "y" ? support.y : support.rotation;
@@ -74,14 +75,19 @@ Support read_support(Reading& reading, Section& body, bool fixed) {
     drive.finish();
     body.resolved["drive"] = drive.resolved;
   }
-  for (const char* key : {"fix", "drive"}) {
-    if (fixed && body.has(key)) {
-      reading.mistakes.add_at_key(
-          body.pointer_to(key),
-          fmt::format("the body is \"fixed\", which leaves nothing for \"{}\": keep one of the two", key));
-    }
-  }
   return support;
+}
+
+/// A body without unknowns is neither held nor cut.
+void check_fixed(Section& section, const SceneBody& body) {
+  if (!body.fixed) return;
+  for (const char* key : {"fix", "drive", "discontinuities", "self_contact"}) {
+    const bool idle = std::string_view(key) == "self_contact" && !body.self_contact;
+    if (!section.has(key) || idle) continue;
+    section.mistakes().add_at_key(
+        section.pointer_to(key),
+        fmt::format("the body is \"fixed\", which leaves nothing for \"{}\": keep one of the two", key));
+  }
 }
 
 /// Initial velocities must not contradict what holds the body.
@@ -112,6 +118,18 @@ void check_model(Reading& reading, Section& section, const SceneBody& body) {
                   material));
 }
 
+void read_geometry(Reading& reading, Section& section, SceneBody& body) {
+  Shape shape = read_shape(reading, section);
+  body.outer.vertices = std::move(shape.loops[0]);
+  for (std::size_t i = 1; i < shape.loops.size(); ++i) body.holes.push_back({std::move(shape.loops[i]), {}});
+  body.mesh = std::move(shape.mesh);
+  reading.sound.push_back(shape.sound);
+  SurfaceNames& names = reading.surface_names.emplace_back();
+  names.edges = std::move(shape.edge_surface);
+  body.discontinuities = read_discontinuities(section, names.discontinuities);
+  body.self_contact = section.value(table::of(table::body, "self_contact")) == 1;
+}
+
 SceneBody read_body(Reading& reading, Section& section, const Choice& scene_cover, bool scene_cover_good) {
   SceneBody body{};
   Mistakes& mistakes = reading.mistakes;
@@ -126,12 +144,7 @@ SceneBody read_body(Reading& reading, Section& section, const Choice& scene_cove
                                known->second));
     }
   }
-  Shape shape = read_shape(section);
-  body.outer.vertices = std::move(shape.loops[0]);
-  for (std::size_t i = 1; i < shape.loops.size(); ++i) body.holes.push_back({std::move(shape.loops[i]), {}});
-  reading.sound.push_back(shape.sound);
-  reading.edge_surface.push_back(std::move(shape.edge_surface));
-
+  read_geometry(reading, section, body);
   const auto material = take_reference(section, "material", "material", reading.material_index);
   body.material = material.value_or(0);
   body.fixed = section.value(table::of(table::body, "fixed")) == 1;
@@ -146,10 +159,11 @@ SceneBody read_body(Reading& reading, Section& section, const Choice& scene_cove
   }
   if (material && cover_good) check_model(reading, section, body);
   if (body.fixed) body.cover = {};
-  body.support = read_support(reading, section, body.fixed);
+  body.support = read_support(reading, section);
   body.velocity = section.pair(table::of(table::body, "velocity"));
   body.angular_velocity = section.value(table::of(table::body, "angular_velocity"));
   body.priority = section.value(table::of(table::body, "priority"));
+  check_fixed(section, body);
   check_start(section, body);
   section.finish();
   return body;
@@ -174,7 +188,7 @@ void report_overlaps(Reading& reading) {
     const std::size_t a = number[overlaps[i].a], b = number[overlaps[i].b];
     const bool last = i + 1 == enough && overlaps.size() > enough;
     reading.mistakes.add(
-        below(below("/bodies", b), "polygon"),
+        below(below("/bodies", b), bodies[b].mesh.corners.empty() ? "polygon" : "mesh"),
         fmt::format("bodies \"{}\" and \"{}\" overlap at the start by {:.4g} m2: they may touch, no more{}",
                     bodies[a].name, bodies[b].name, overlaps[i].area,
                     last ? fmt::format(" (and {} more pairs)", overlaps.size() - enough) : ""));

@@ -53,9 +53,8 @@ struct Names {
   std::vector<std::string> all{"*"};
 
   explicit Names(const Reading& reading) {
-    for (std::size_t i = 0; i < reading.edge_surface.size(); ++i) {
-      for (const std::string& surface : reading.edge_surface[i]) {
-        if (surface.empty()) continue;
+    for (std::size_t i = 0; i < reading.surface_names.size(); ++i) {
+      for (const std::string& surface : reading.surface_names[i].all()) {
         surfaces.insert(surface);
         of_bodies.insert(reading.scene.bodies[i].name + '/' + surface);
       }

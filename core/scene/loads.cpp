@@ -1,14 +1,11 @@
 #include "scene/loads.hpp"
 
-#include "scene/nearest.hpp"
-#include "scene/polygons.hpp"
 #include "scene/tables.hpp"
+#include "scene/take_function.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -20,63 +17,45 @@ void check_moves(Reading& reading, Section& section, std::optional<std::uint32_t
       fmt::format("body \"{}\" is fixed: expected one that moves", reading.scene.bodies[*body].name));
 }
 
-/// A class of the body's edges named `surface`.
-std::optional<std::uint32_t> find_surface(Reading& reading, Section& section, std::uint32_t body,
-                                          const std::string& surface) {
-  const std::vector<std::string>& names = reading.edge_surface[body];
-  const std::vector<std::uint32_t>& classes = reading.scene.bodies[body].outer.surface_class;
-  const auto found = std::find(names.begin(), names.end(), surface);
-  if (found != names.end()) {
-    const auto edge = static_cast<std::size_t>(found - names.begin());
-    return edge < classes.size() ? std::optional(classes[edge]) : std::nullopt;
-  }
-  std::set<std::string> known(names.begin(), names.end());
-  known.erase("");
-  const std::vector<std::string> list(known.begin(), known.end());
-  reading.mistakes.add(
-      section.pointer_to("surface"),
-      fmt::format("body \"{}\" has no surface \"{}\";{} it has: {}", reading.scene.bodies[body].name, surface,
-                  did_you_mean(surface, list), listed(list)));
-  return std::nullopt;
-}
-
-/// A motion per axis; null leaves an axis free.
-std::array<std::optional<double>, 2> read_motion(Section& section, const Parameter& parameter) {
-  std::array<std::optional<double>, 2> motion;
-  const Json* written = section.child(parameter.key);
-  section.resolved[parameter.key] = OrderedJson::array({nullptr, nullptr});
-  if (written == nullptr) return motion;
-  section.resolved[parameter.key] = *written;
-  const auto taken =
-      take_pair(parameter, *written, section.pointer_to(parameter.key), section.mistakes(), true);
-  for (std::size_t axis = 0; taken && axis < 2; ++axis) {
-    if (!std::isnan((*taken)[axis])) motion[axis] = (*taken)[axis];
-  }
-  return motion;
-}
-
 PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
   PrescribedSurface one{};
   const auto body = take_reference(section, "body", "body", reading.body_index);
   check_moves(reading, section, body);
-  const std::string surface = section.text("surface", "the name of a surface of the body");
-  if (body && !surface.empty()) {
-    one.body = *body;
-    one.surface_class = find_surface(reading, section, *body, surface).value_or(0);
-  }
+  one.body = body.value_or(0);
+  one.surface_class = take_surface(reading, section, body).value_or(0);
   one.stiffness = section.value(table::of(table::prescribed, "stiffness"));
   one.ramp = section.value(table::of(table::prescribed, "ramp"));
   const std::size_t mistakes_before = reading.mistakes.count();
-  one.displacement = read_motion(section, table::of(table::prescribed, "displacement"));
-  one.velocity = read_motion(section, table::of(table::prescribed, "velocity"));
+  one.displacement = free_vector_function(reading, section, table::of(table::prescribed, "displacement"));
+  one.velocity = free_vector_function(reading, section, table::of(table::prescribed, "velocity"));
   const bool nothing = !one.displacement[0] && !one.displacement[1] && !one.velocity[0] && !one.velocity[1];
   if (nothing && reading.mistakes.count() == mistakes_before) {
     reading.mistakes.add(section.pointer(),
                          "nothing is prescribed: expected \"displacement\": [ux, uy] [m] or "
-                         "\"velocity\": [vx, vy] [m/s] with a number on one axis at least");
+                         "\"velocity\": [vx, vy] [m/s] with a value on one axis at least");
   }
   section.finish();
   return one;
+}
+
+SurfaceLoad read_surface_load(Reading& reading, Section& section) {
+  SurfaceLoad load{};
+  const auto body = take_reference(section, "body", "body", reading.body_index);
+  check_moves(reading, section, body);
+  load.body = body.value_or(0);
+  load.surface_class = take_surface(reading, section, body).value_or(0);
+  const bool given = section.has("traction") || section.has("pressure");
+  if (section.has("traction"))
+    load.traction = vector_function(reading, section, table::of(table::surface_load, "traction"));
+  section.child("traction");
+  load.pressure =
+      optional_function(reading, section, table::of(table::surface_load, "pressure")).value_or(Function{});
+  if (!given) {
+    reading.mistakes.add(section.pointer(),
+                         "nothing acts: expected \"traction\": [tx, ty] [Pa] or \"pressure\" [Pa]");
+  }
+  section.finish();
+  return load;
 }
 
 }  // namespace
@@ -90,12 +69,39 @@ void read_loads(Reading& reading, Section& root) {
               check_moves(reading, section, body);
               const Vec2 point = take_point(reading, section, body).value_or(Vec2{});
               if (!section.has("point")) section.pair(table::coordinate);
-              const Vec2 force = section.pair(table::of(table::load, "force"));
+              VectorFunction force = vector_function(reading, section, table::of(table::load, "force"));
               section.finish();
-              reading.scene.loads.push_back({body.value_or(0), point, force});
+              reading.scene.loads.push_back({body.value_or(0), point, std::move(force)});
               resolved.push_back(section.resolved);
             });
   root.resolved["loads"] = std::move(resolved);
+}
+
+void read_surface_loads(Reading& reading, Section& root) {
+  OrderedJson resolved = OrderedJson::array();
+  root.list("surface_loads",
+            "a list of loads [{\"body\": ..., \"surface\": ..., \"traction\": ..., \"pressure\": ...}]",
+            [&](const Json& value, const std::string& pointer) {
+              Section section(&value, pointer, reading.mistakes);
+              reading.scene.surface_loads.push_back(read_surface_load(reading, section));
+              resolved.push_back(section.resolved);
+            });
+  root.resolved["surface_loads"] = std::move(resolved);
+}
+
+void read_absorbing(Reading& reading, Section& root) {
+  OrderedJson resolved = OrderedJson::array();
+  root.list("absorbing", "a list of surfaces that let waves out [{\"body\": ..., \"surface\": ...}]",
+            [&](const Json& value, const std::string& pointer) {
+              Section section(&value, pointer, reading.mistakes);
+              const auto body = take_reference(section, "body", "body", reading.body_index);
+              check_moves(reading, section, body);
+              const auto surface = take_surface(reading, section, body);
+              section.finish();
+              reading.scene.absorbing.push_back({body.value_or(0), surface.value_or(0)});
+              resolved.push_back(section.resolved);
+            });
+  root.resolved["absorbing"] = std::move(resolved);
 }
 
 void read_prescribed(Reading& reading, Section& root) {

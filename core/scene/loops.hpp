@@ -11,11 +11,12 @@ namespace talus {
 /// A body's shape as the scene gives it, made counter-clockwise outside and clockwise in holes.
 struct Shape {
   Loops loops;
-  std::vector<std::string> edge_surface;  ///< [edge of the outer loop] after turning; "" if unnamed
-  bool sound = false;                     ///< whether it can be worked with
+  std::vector<std::vector<std::string>> edge_surface;  ///< [loop][edge] after turning; "" if unnamed
+  MeshTriangles mesh;                                  ///< none where the shape is a polygon
+  bool sound = false;                                  ///< whether it can be worked with
 };
 
-/// "polygon", "holes" and "surfaces" of a body.
-Shape read_shape(Section& body);
+/// "polygon", "holes" and "surfaces" of a body, or "mesh".
+Shape read_shape(Reading& reading, Section& body);
 
 }  // namespace talus

@@ -20,11 +20,6 @@ std::string all_lines(const std::vector<Mistake>& mistakes) {
   return lines;
 }
 
-bool is_within(const std::string& pointer, const std::string& ancestor) {
-  return pointer.starts_with(ancestor) &&
-         (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');
-}
-
 /// The root for what is no pointer at all: an override may be anything.
 std::string parent_of(const std::string& pointer) {
   const std::size_t slash = pointer.rfind('/');

@@ -16,16 +16,18 @@ class Mistakes {
 
   std::size_t count() const { return found_.size(); }
 
+  struct Found {
+    std::string pointer, message, command;
+    bool at_key;
+  };
+  const std::vector<Found>& found() const { return found_; }
+
   /// In the order of the file, then those of the overrides. A mistake in a value that an override wrote
   /// points at the override. `parsed` are those that the parser placed already.
   std::vector<Mistake> placed(const std::string& text, const std::string& file,
                               const std::vector<Override>& overrides, std::vector<Mistake> parsed) const;
 
  private:
-  struct Found {
-    std::string pointer, message, command;
-    bool at_key;
-  };
   std::vector<Found> found_;
 };
 

@@ -11,25 +11,6 @@
 namespace talus {
 namespace {
 
-/// "/a/b~1c" to "a", "b/c".
-std::optional<std::vector<std::string>> split(const std::string& pointer) {
-  if (!pointer.starts_with('/')) return std::nullopt;
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < pointer.size(); ++i) {
-    const char c = pointer[i];
-    if (c == '/') {
-      parts.emplace_back();
-    } else if (c == '~') {
-      const char next = i + 1 < pointer.size() ? pointer[++i] : '\0';
-      if (next != '0' && next != '1') return std::nullopt;
-      parts.back() += next == '0' ? '~' : '/';
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 /// The value as JSON, or as the text that it is.
 std::optional<Json> value_of(const std::string& written, std::string& problem) {
   ParsedText parsed = parse_json(written, {});
@@ -52,6 +33,7 @@ constexpr Omissible omissible[] = {
     {"", "time"},           {"", "output"},
     {"", "limits"},         {"/bodies/*", "cover"},
     {"/bodies/*", "drive"}, {"/bodies/*", "surfaces"},
+    {"/stages/*", "set"},
 };
 
 /// Whether an object `key` may be made in `section`.
@@ -91,8 +73,8 @@ Json* step(Json& parent, const std::string& section, const std::string& part, bo
         fmt::format("\"{}\" cannot be set within {}: expected an object or a list", part, shown(parent));
     return nullptr;
   }
-  const bool number =
-      !part.empty() && part.size() < 10 && part.find_first_not_of("0123456789") == std::string::npos;
+  const bool number = !part.empty() && part.size() < 10 && (part == "0" || part[0] != '0') &&
+                      part.find_first_not_of("0123456789") == std::string::npos;
   if (number && std::stoul(part) < parent.size()) return &parent[std::stoul(part)];
   problem = parent.empty() ? fmt::format("the list has no entry \"{}\": it is empty", part)
                            : fmt::format("the list has no entry \"{}\": expected a number from 0 to {}", part,
@@ -101,39 +83,62 @@ Json* step(Json& parent, const std::string& section, const std::string& part, bo
 }
 
 void apply(Json& scene, const Override& override_, Mistakes& mistakes) {
-  const auto parts = split(override_.pointer);
+  const auto parts = split_pointer(override_.pointer);
   if (!parts) {
     mistakes.add_to_command(command_of(override_), override_.pointer,
                             "this is no JSON pointer: expected one such as /time/dt, with / before each key");
     return;
   }
-  std::string problem;
+  std::string problem, missing = override_.pointer;
   std::optional<Json> value = value_of(override_.value, problem);
-  Json* at = &scene;
-  std::string so_far, section;  // with the number of an entry, and with * instead
-  Json *made_in = nullptr, *parent = nullptr;
-  std::string made;
-  for (std::size_t i = 0; i < parts->size() && at != nullptr && value; ++i) {
-    const std::string& part = (*parts)[i];
-    const bool is_new = at->is_object() && !at->contains(part);
-    parent = at;
-    at = step(*at, section, part, i + 1 == parts->size(), problem);
-    if (at != nullptr && is_new && made_in == nullptr) {
-      made_in = parent;
-      made = part;
-    }
-    so_far = below(so_far, part);
-    section += parent->is_array() ? "/*" : '/' + part;
-  }
-  if (at != nullptr && value) {
-    *at = std::move(*value);
-  } else {
-    if (made_in != nullptr) made_in->erase(made);  // nobody asked for an empty section
-    mistakes.add_to_command(command_of(override_), value ? so_far : override_.pointer, problem);
-  }
+  if (!value || !write_value(scene, *parts, std::move(*value), missing, problem))
+    mistakes.add_to_command(command_of(override_), missing, problem);
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> split_pointer(const std::string& pointer) {
+  if (!pointer.starts_with('/')) return std::nullopt;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < pointer.size(); ++i) {
+    const char c = pointer[i];
+    if (c == '/') {
+      parts.emplace_back();
+    } else if (c == '~') {
+      const char next = i + 1 < pointer.size() ? pointer[++i] : '\0';
+      if (next != '0' && next != '1') return std::nullopt;
+      parts.back() += next == '0' ? '~' : '/';
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+bool write_value(Json& scene, const std::vector<std::string>& keys, Json value, std::string& missing,
+                 std::string& problem) {
+  Json *at = &scene, *made_in = nullptr;
+  std::string so_far, section, made;  // with the number of an entry, and with * instead
+  for (std::size_t i = 0; i < keys.size() && at != nullptr; ++i) {
+    const std::string& key = keys[i];
+    Json* parent = at;
+    const bool is_new = parent->is_object() && !parent->contains(key);
+    at = step(*parent, section, key, i + 1 == keys.size(), problem);
+    if (at != nullptr && is_new && made_in == nullptr) {
+      made_in = parent;
+      made = key;
+    }
+    so_far = below(so_far, key);
+    section += parent->is_array() ? "/*" : '/' + key;
+  }
+  if (at != nullptr) {
+    *at = std::move(value);
+    return true;
+  }
+  if (made_in != nullptr) made_in->erase(made);  // nobody asked for an empty section
+  missing = so_far;
+  return false;
+}
 
 void apply_overrides(Json& scene, const std::vector<Override>& overrides, Mistakes& mistakes) {
   for (const Override& override_ : overrides) apply(scene, override_, mistakes);

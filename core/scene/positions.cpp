@@ -252,4 +252,9 @@ std::string below(const std::string& pointer, std::size_t index) {
   return pointer + '/' + std::to_string(index);
 }
 
+bool is_within(const std::string& pointer, const std::string& ancestor) {
+  return pointer.starts_with(ancestor) &&
+         (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');
+}
+
 }  // namespace talus

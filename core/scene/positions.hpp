@@ -42,4 +42,7 @@ std::map<std::string, Places> find_places(const std::string& text, const std::se
 std::string below(const std::string& pointer, const std::string& key);
 std::string below(const std::string& pointer, std::size_t index);
 
+/// Whether `pointer` leads to `ancestor` or to something in it.
+bool is_within(const std::string& pointer, const std::string& ancestor);
+
 }  // namespace talus

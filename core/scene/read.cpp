@@ -11,6 +11,8 @@
 #include "scene/overrides.hpp"
 #include "scene/stages.hpp"
 #include "scene/tables.hpp"
+#include "scene/take_function.hpp"
+#include "scene/timing.hpp"
 
 #include <fmt/format.h>
 
@@ -34,25 +36,31 @@ void read_world(Reading& reading, Section& root) {
   reading.scene.title = root.text("title", "a text", "");
   reading.scene.origin = root.pair(table::of(table::world, "origin"));
   reading.scene.gravity = root.pair(table::of(table::world, "gravity"));
-  reading.scene.damping = root.value(table::of(table::world, "damping"));
+  reading.scene.base_acceleration =
+      vector_function(reading, root, table::of(table::world, "base_acceleration"), Varies::in_time);
+  read_damping(reading, root);
 }
 
-void read_sections(Reading& reading, Section& root, const std::filesystem::path& folder, bool allow_plugins) {
+/// All but the stages.
+void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   read_format(root);
-  read_libraries(reading, root, folder, allow_plugins);
+  read_libraries(reading, root, reading.folder, allow_plugins);
   read_world(reading, root);
   read_materials(reading, root);
   read_bodies(reading, root);
   const ContactSection contact = read_contact(reading, root);
   read_interfaces(reading, root, contact);
   read_loads(reading, root);
+  read_surface_loads(reading, root);
   read_prescribed(reading, root);
+  read_absorbing(reading, root);
   read_settle(reading, root);
   read_monitors(reading, root);
   read_time(reading, root);
   read_output(reading, root);
   read_limits(reading, root);
   read_tolerances(reading, root);
+  root.child("stages");
   root.finish();
 }
 
@@ -66,10 +74,18 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
   Mistakes mistakes;
   apply_overrides(parsed.value, options.overrides, mistakes);
   Reading reading{registry, mistakes};
+  reading.folder = std::filesystem::path(name).parent_path();
   reading.scene.file = name;
+  const ReadAgain read_again = [&](const Json& scene, Mistakes& mistakes_again) {
+    Reading again{registry, mistakes_again, reading.folder};
+    Section root(&scene, "", mistakes_again);
+    read_sections(again, root, options.allow_plugins);
+    return Reread{std::move(again.scene), std::move(root.resolved)};
+  };
   Section root(&parsed.value, "", mistakes);
   if (parsed.value.is_object()) {
-    read_sections(reading, root, std::filesystem::path(name).parent_path(), options.allow_plugins);
+    read_sections(reading, root, options.allow_plugins);
+    read_stages(reading, root, parsed.value, read_again);
   }
   if (mistakes.count() != 0 || !parsed.mistakes.empty()) {
     throw SceneError(mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes)));

@@ -8,6 +8,13 @@
 
 namespace talus {
 
+std::set<std::string> SurfaceNames::all() const {
+  std::set<std::string> names(discontinuities.begin(), discontinuities.end());
+  for (const std::vector<std::string>& loop : edges) names.insert(loop.begin(), loop.end());
+  names.erase("");
+  return names;
+}
+
 bool check_name(const std::string& name, const std::string& pointer, Mistakes& mistakes) {
   const bool blank = name.empty() || name.find_first_not_of(' ') == std::string::npos;
   bool good = !blank && name != "*";
@@ -35,6 +42,25 @@ std::optional<std::uint32_t> take_reference(Section& section, const std::string&
                                        did_you_mean(name, names), listed(names)));
   }
   return std::nullopt;
+}
+
+std::optional<std::uint32_t> take_surface(Reading& reading, Section& section,
+                                          std::optional<std::uint32_t> body) {
+  const std::string surface = section.text("surface", "the name of a surface of the body");
+  if (!body || surface.empty()) return std::nullopt;
+  const std::set<std::string> known = reading.surface_names[*body].all();
+  if (!known.contains(surface)) {
+    const std::vector<std::string> list(known.begin(), known.end());
+    reading.mistakes.add(
+        section.pointer_to("surface"),
+        fmt::format("body \"{}\" has no surface \"{}\";{} it has: {}", reading.scene.bodies[*body].name,
+                    surface, did_you_mean(surface, list), listed(list)));
+    return std::nullopt;
+  }
+  // Not numbered where there is no material.
+  const auto& classes = reading.surface_class[*body];
+  const auto found = classes.find(surface);
+  return found != classes.end() ? std::optional(found->second) : std::nullopt;
 }
 
 std::optional<Vec2> take_point(const Reading& reading, Section& section, std::optional<std::uint32_t> body) {

@@ -3,22 +3,36 @@
 #include "scene/section.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace talus {
 
+/// Names of the surfaces of a body, "" where a side has none.
+struct SurfaceNames {
+  std::vector<std::vector<std::string>> edges = {};  ///< [loop][edge], the outer loop first
+  std::vector<std::string> discontinuities = {};
+
+  std::set<std::string> all() const;  ///< without ""
+};
+
 /// What the parts of the reader share: the scene as far as it is read, and names to look up.
 struct Reading {
   Registry& registry;
   Mistakes& mistakes;
+  std::filesystem::path folder = {};  ///< of the scene; paths of files start there
   Scene scene = {};
   std::map<std::string, std::uint32_t> material_index = {}, body_index = {}, monitor_index = {};
-  std::vector<bool> material_has_model = {};  ///< [material] whether it names a model, good or not
-  std::vector<bool> sound = {};               ///< [body] whether its polygon can be worked with
-  std::vector<std::vector<std::string>> edge_surface = {};  ///< [body][edge of the outer loop] name or ""
+  std::vector<bool> material_has_model = {};     ///< [material] whether it names a model, good or not
+  std::vector<bool> sound = {};                  ///< [body] whether its polygon can be worked with
+  std::vector<SurfaceNames> surface_names = {};  ///< [body]
+  /// [body] the class of each named surface; known once the surfaces are numbered.
+  std::vector<std::map<std::string, std::uint32_t>> surface_class = {};
+  std::size_t table_points = 0;  ///< read so far, of all tables
 };
 
 /// A name that can stand in JSON pointers, lists and column heads. Notes a mistake otherwise.
@@ -27,6 +41,10 @@ bool check_name(const std::string& name, const std::string& pointer, Mistakes& m
 /// The index of what `key` names; notes the mistake of an absent, mistyped or unknown name.
 std::optional<std::uint32_t> take_reference(Section& section, const std::string& key, const std::string& what,
                                             const std::map<std::string, std::uint32_t>& index);
+
+/// The class of the surface of the body that "surface" names; notes the mistake of an absent or unknown name.
+std::optional<std::uint32_t> take_surface(Reading& reading, Section& section,
+                                          std::optional<std::uint32_t> body);
 
 /// "point" of a body; notes the mistake of a point outside it.
 std::optional<Vec2> take_point(const Reading& reading, Section& section, std::optional<std::uint32_t> body);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "plugin/registry.hpp"
+#include "scene/function.hpp"
+#include "scene/vec2.hpp"
 
 #include <array>
 #include <cstdint>
@@ -9,10 +11,6 @@
 #include <vector>
 
 namespace talus {
-
-struct Vec2 {
-  double x = 0, y = 0;
-};
 
 /// A component chosen by a scene, with its parameters in declared order (SI, radians).
 struct Choice {
@@ -43,13 +41,29 @@ struct Support {
   std::optional<double> rotation;  ///< rad/s
 };
 
+/// An open polyline along which a body is cut; both faces belong to the surface class.
+struct Discontinuity {
+  std::vector<Vec2> points;  ///< m, relative to the scene's origin
+  std::uint32_t surface_class;
+};
+
+/// Triangles of a mesh file that gave a body its shape.
+struct MeshTriangles {
+  std::vector<Vec2> nodes;  ///< m, relative to the scene's origin
+  std::vector<std::array<std::uint32_t, 3>> corners;
+};
+
 struct SceneBody {
   std::string name;
   Loop outer;               ///< counter-clockwise
   std::vector<Loop> holes;  ///< clockwise
-  std::uint32_t material;   ///< index into Scene::materials
-  Choice cover;             ///< component is nullptr for a fixed body
-  bool fixed = false;       ///< no unknowns
+  std::vector<Discontinuity> discontinuities;
+  MeshTriangles mesh;
+  bool self_contact =
+      false;  ///< whether parts of its own boundary may meet; faces of discontinuities always may
+  std::uint32_t material;  ///< index into Scene::materials
+  Choice cover;            ///< component is nullptr for a fixed body
+  bool fixed = false;      ///< no unknowns
   Support support;
   Vec2 velocity;                ///< m/s at t = 0
   double angular_velocity = 0;  ///< rad/s at t = 0
@@ -58,18 +72,32 @@ struct SceneBody {
 
 struct PointLoad {
   std::uint32_t body;
-  Vec2 point;  ///< m, in the scene's coordinates at the start; moves with the body
-  Vec2 force;  ///< N/m
+  Vec2 point;            ///< m, in the scene's coordinates at the start; moves with the body
+  VectorFunction force;  ///< N/m
 };
 
-/// Eqs. 18–20: λ∫(u − ū) over a named surface of a body, ū = displacement · min(t/ramp, 1) + velocity · t.
+/// Load on a named surface of a body, per length of the boundary at the start.
+struct SurfaceLoad {
+  std::uint32_t body;
+  std::uint32_t surface_class;
+  VectorFunction traction;  ///< Pa, in fixed directions
+  Function pressure;        ///< Pa, towards the body, turning with the surface
+};
+
+/// Eqs. 18–20: λ∫(u − ū) over a named surface of a body, ū = displacement · min(t/ramp, 1) + ∫velocity dt.
 struct PrescribedSurface {
   std::uint32_t body;
   std::uint32_t surface_class;
-  double stiffness;                                   ///< λ, Pa/m
-  double ramp;                                        ///< s
-  std::array<std::optional<double>, 2> displacement;  ///< m, per axis
-  std::array<std::optional<double>, 2> velocity;      ///< m/s, per axis; an axis with neither is free
+  double stiffness;                                     ///< λ, Pa/m
+  double ramp;                                          ///< s
+  std::array<std::optional<Function>, 2> displacement;  ///< m, per axis
+  std::array<std::optional<Function>, 2> velocity;      ///< m/s, per axis; an axis with neither is free
+};
+
+/// A boundary that lets plane waves out: traction −ρ c_p v_n n − ρ c_s v_s s.
+struct AbsorbingSurface {
+  std::uint32_t body;
+  std::uint32_t surface_class;
 };
 
 struct Monitor {
@@ -79,9 +107,40 @@ struct Monitor {
   std::vector<std::string> quantities;
 };
 
+/// Global damping: a force per mass and velocity of given size; or of the size that is critical for the
+/// slowest motion as it is found under way (adaptive); or none, but velocities are set to zero at each peak
+/// of the kinetic energy (kinetic).
+struct Damping {
+  enum class Kind { constant, adaptive, kinetic };
+  Kind kind = Kind::constant;
+  double constant = 0;  ///< 1/s
+};
+
 struct Settle {
-  double duration;  ///< s
-  double damping;   ///< 1/s, mass-proportional
+  double duration;  ///< s, at most
+  Damping damping;
+  std::optional<double> until;  ///< unbalanced force over applied force at which it ends early
+  bool hold_stick = true;       ///< friction is held stuck meanwhile
+};
+
+/// Everything a stage may change.
+struct StageSettings {
+  Vec2 gravity;
+  VectorFunction base_acceleration;  ///< m/s² of the ground; bodies feel its opposite
+  Damping damping;
+  std::vector<std::vector<double>> interface_values;  ///< [row][parameter] as in Scene
+  std::vector<Support> supports;                      ///< [body]
+  std::vector<PointLoad> loads;
+  std::vector<SurfaceLoad> surface_loads;
+  std::vector<PrescribedSurface> prescribed;
+  std::vector<AbsorbingSurface> absorbing;
+};
+
+/// From a time on the scene goes on with other settings.
+struct Stage {
+  std::string name;
+  double from;  ///< s
+  StageSettings settings;
 };
 
 struct TimeSettings {
@@ -122,9 +181,13 @@ struct Scene {
   std::vector<std::vector<double>> interface_values;
   std::vector<SceneBody> bodies;
   std::vector<PointLoad> loads;
+  std::vector<SurfaceLoad> surface_loads;
   std::vector<PrescribedSurface> prescribed;
-  double damping = 0;  ///< 1/s, mass-proportional
+  std::vector<AbsorbingSurface> absorbing;
+  VectorFunction base_acceleration;  ///< m/s² of the ground; bodies feel its opposite
+  Damping damping;
   std::optional<Settle> settle;
+  std::vector<Stage> stages;  ///< in the order of their times, all later than 0
   std::vector<Monitor> monitors;
   TimeSettings time;
   OutputSettings output;
@@ -134,5 +197,8 @@ struct Scene {
       warnings;          ///< what a reviewer would raise, e.g. cohesion given to a law that reads none
   std::string resolved;  ///< the scene as JSON text with every default spelled out
 };
+
+/// What a stage may change, as it is at the start.
+StageSettings settings_of(const Scene& scene);
 
 }  // namespace talus

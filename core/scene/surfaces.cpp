@@ -27,13 +27,24 @@ bool differ(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
   return false;
 }
 
+/// Where a body says that it has the surface.
+std::string pointer_to_surface(const Reading& reading, std::size_t body, const std::string& name) {
+  const std::string pointer = below("/bodies", body);
+  const SurfaceNames& names = reading.surface_names[body];
+  for (std::size_t i = 0; i < names.discontinuities.size(); ++i) {
+    if (names.discontinuities[i] == name)
+      return below(below(below(pointer, "discontinuities"), i), "surface");
+  }
+  const bool meshed = !reading.scene.bodies[body].mesh.corners.empty();
+  return meshed ? below(pointer, "mesh") : below(below(pointer, "surfaces"), name);
+}
+
 void check_surface_names(Reading& reading) {
-  for (std::size_t body = 0; body < reading.edge_surface.size(); ++body) {
-    const std::set<std::string> names(reading.edge_surface[body].begin(), reading.edge_surface[body].end());
-    for (const std::string& name : names) {
+  for (std::size_t body = 0; body < reading.surface_names.size(); ++body) {
+    for (const std::string& name : reading.surface_names[body].all()) {
       if (!reading.material_index.contains(name)) continue;
       reading.mistakes.add_at_key(
-          below(below(below("/bodies", body), "surfaces"), name),
+          pointer_to_surface(reading, body, name),
           fmt::format("\"{}\" is the name of a material: interfaces could not tell the two "
                       "apart, rename one",
                       name));
@@ -41,11 +52,27 @@ void check_surface_names(Reading& reading) {
   }
 }
 
+/// Classes of a body's boundary and those of its cuts alone.
+struct ClassesOfBody {
+  std::set<std::uint32_t> all, cuts;
+};
+
+ClassesOfBody classes_of(const SceneBody& body) {
+  ClassesOfBody classes;
+  classes.all.insert(body.outer.surface_class.begin(), body.outer.surface_class.end());
+  for (const Loop& hole : body.holes)
+    classes.all.insert(hole.surface_class.begin(), hole.surface_class.end());
+  for (const Discontinuity& cut : body.discontinuities) classes.cuts.insert(cut.surface_class);
+  classes.all.insert(classes.cuts.begin(), classes.cuts.end());
+  return classes;
+}
+
 }  // namespace
 
 std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<std::string>& single) {
   check_surface_names(reading);
   std::vector<NumberedSurface> surfaces;
+  reading.surface_class.resize(reading.scene.bodies.size());
   if (reading.scene.materials.empty()) return surfaces;
   std::map<std::tuple<std::uint32_t, std::string, std::string>, std::uint32_t> number;
   const auto number_of = [&](const SceneBody& body, const std::string& surface) {
@@ -61,9 +88,20 @@ std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<st
   };
   for (std::size_t i = 0; i < reading.scene.bodies.size(); ++i) {
     SceneBody& body = reading.scene.bodies[i];
-    for (const std::string& name : reading.edge_surface[i])
-      body.outer.surface_class.push_back(number_of(body, name));
-    for (Loop& hole : body.holes) hole.surface_class.assign(hole.vertices.size(), number_of(body, ""));
+    const SurfaceNames& names = reading.surface_names[i];
+    std::map<std::string, std::uint32_t>& named = reading.surface_class[i];
+    const auto class_of = [&](const std::string& name) {
+      const std::uint32_t number_of_class = number_of(body, name);
+      if (!name.empty()) named[name] = number_of_class;
+      return number_of_class;
+    };
+    for (const std::string& name : names.edges[0]) body.outer.surface_class.push_back(class_of(name));
+    for (std::size_t hole = 0; hole < body.holes.size(); ++hole) {
+      for (const std::string& name : names.edges[hole + 1])
+        body.holes[hole].surface_class.push_back(class_of(name));
+    }
+    for (std::size_t cut = 0; cut < body.discontinuities.size(); ++cut)
+      body.discontinuities[cut].surface_class = class_of(names.discontinuities[cut]);
   }
   return surfaces;
 }
@@ -71,20 +109,21 @@ std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<st
 std::vector<bool> meetings(const Scene& scene) {
   const std::size_t count = scene.surfaces.size();
   std::vector<Holders> holders(count);
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-    const bool fixed = scene.bodies[body].fixed;
-    for (const std::uint32_t surface : scene.bodies[body].outer.surface_class)
-      holders[surface].add(body, fixed);
-    for (const Loop& hole : scene.bodies[body].holes) {
-      for (const std::uint32_t surface : hole.surface_class) holders[surface].add(body, fixed);
+  std::vector<bool> meet(count * count);
+  for (std::size_t number = 0; number < scene.bodies.size(); ++number) {
+    const SceneBody& body = scene.bodies[number];
+    const ClassesOfBody classes = classes_of(body);
+    for (const std::uint32_t surface : classes.all) holders[surface].add(number, body.fixed);
+    if (body.fixed) continue;
+    for (const std::uint32_t a : body.self_contact ? classes.all : classes.cuts) {
+      for (const std::uint32_t b : classes.all) meet[a * count + b] = meet[b * count + a] = true;
     }
   }
-  std::vector<bool> meet(count * count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       const Holders &a = holders[i], &b = holders[j];
-      meet[i * count + j] =
-          differ(a.moving, b.moving) || differ(a.moving, b.fixed) || differ(a.fixed, b.moving);
+      if (differ(a.moving, b.moving) || differ(a.moving, b.fixed) || differ(a.fixed, b.moving))
+        meet[i * count + j] = true;
     }
   }
   return meet;

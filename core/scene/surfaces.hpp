@@ -13,11 +13,13 @@ struct NumberedSurface {
   std::string material, surface, body;
 };
 
-/// Gives each edge its class: equal material and surface name are one class, except for surfaces that
-/// `single` names as "body/surface". Notes surfaces and materials of the same name.
+/// Gives each edge, of holes too, and each discontinuity its class: equal material and surface name are one
+/// class, except for surfaces that `single` names as "body/surface". Notes surfaces and materials of the same
+/// name.
 std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<std::string>& single);
 
-/// [class * class_count + class] whether two bodies, one of which moves, can meet with these classes.
+/// [class * class_count + class] whether two bodies, one of which moves, can meet with these classes, or one
+/// body with itself: with its cuts, and with all of its boundary where it has "self_contact".
 std::vector<bool> meetings(const Scene& scene);
 
 }  // namespace talus

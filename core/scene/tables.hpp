@@ -17,7 +17,9 @@ inline constexpr Parameter world[] = {
            "no digits."),
     number("gravity", "m/s2", 0, -unbounded, unbounded, "Acceleration of gravity [gx, gy]."),
     number("damping", "1/s", 0, 0, unbounded,
-           "Global damping force per mass and velocity, all the run long."),
+           "Global damping force per mass and velocity, all the run long; or \"adaptive\" or \"kinetic\"."),
+    number("base_acceleration", "m/s2", 0, -unbounded, unbounded,
+           "Acceleration [ax, ay] of the ground, which may depend on time; bodies feel its opposite."),
 };
 
 inline constexpr Parameter material[] = {
@@ -35,6 +37,8 @@ inline constexpr Parameter coordinate = number("point", "m", required, -largest_
 
 inline constexpr Parameter body[] = {
     flag("fixed", false, "Whether the body stays where it is and has no unknowns."),
+    flag("self_contact", false,
+         "Whether parts of the body's own boundary may meet; the faces of its discontinuities always may."),
     number("velocity", "m/s", 0, -unbounded, unbounded, "Velocity [vx, vy] at the start."),
     number("angular_velocity", "deg/s", 0, -unbounded, unbounded,
            "Angular velocity at the start, counter-clockwise."),
@@ -63,6 +67,12 @@ inline constexpr Parameter load[] = {
     number("force", "N/m", required, -unbounded, unbounded, "Force [fx, fy] per metre of thickness."),
 };
 
+inline constexpr Parameter surface_load[] = {
+    number("traction", "Pa", not_set, -unbounded, unbounded, "Traction [tx, ty] in fixed directions."),
+    number("pressure", "Pa", not_set, -unbounded, unbounded,
+           "Pressure towards the body; it turns with the surface."),
+};
+
 inline constexpr Parameter prescribed[] = {
     number("stiffness", "Pa/m", required, above_zero, unbounded,
            "Penalty that holds the surface (Eqs. 18-20)."),
@@ -73,16 +83,28 @@ inline constexpr Parameter prescribed[] = {
 };
 
 inline constexpr Parameter settle[] = {
-    number("duration", "s", required, above_zero, unbounded, "How long the scene settles before t = 0."),
-    number("damping", "1/s", required, above_zero, unbounded, "Global damping while it settles."),
+    number("duration", "s", required, above_zero, unbounded,
+           "How long the scene settles before t = 0, at most."),
+    number("damping", "1/s", required, above_zero, unbounded,
+           "Global damping while it settles; or \"adaptive\" or \"kinetic\"."),
+    number("until", "-", not_set, above_zero, 1,
+           "Ratio of unbalanced to applied force at which it ends before its duration."),
+    flag("hold_stick", true, "Whether friction is held stuck while it settles."),
 };
+
+inline constexpr Parameter stage[] = {
+    number("from", "s", required, above_zero, unbounded, "Time from which its values hold."),
+};
+
+inline constexpr double safety_with_contact = 0.4;
 
 inline constexpr Parameter time[] = {
     number("end", "s", required, above_zero, unbounded, "When the run ends."),
     number("dt", "s", automatic, above_zero, unbounded,
            "Time step; \"auto\" takes it from votes of bodies and contacts."),
-    number("safety", "-", 0.2, above_zero, 0.4,
-           "Share of the critical time step that is taken when automatic."),
+    number(
+        "safety", "-", 0.2, above_zero, 0.9,
+        "Share of the critical time step that is taken when automatic; at most 0.4 where bodies can meet."),
 };
 
 inline constexpr Parameter output[] = {
@@ -128,8 +150,10 @@ inline constexpr Described all[] = {
     {"/bodies/*", body},
     {"/bodies/*/drive", drive},
     {"/loads/*", load},
+    {"/surface_loads/*", surface_load},
     {"/prescribed/*", prescribed},
     {"/settle", settle},
+    {"/stages/*", stage},
     {"/time", time},
     {"/output", output},
     {"/limits", limits},

@@ -25,4 +25,13 @@ void check(const Mistake& mistake, const BadScene& bad, const std::string& text)
   for (const char* word : bad.words) CHECK_THAT(mistake.message, Catch::Contains(word));
 }
 
+void check_alone(const BadPart& bad, const std::string& text) {
+  const std::vector<Mistake> found = mistakes(text);
+  for (const Mistake& mistake : found) UNSCOPED_INFO(mistake.text());
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].pointer == bad.pointer);
+  CHECK_THAT(text_at(text, found[0]), Catch::StartsWith(bad.at));
+  for (const char* word : bad.words) CHECK_THAT(found[0].message, Catch::Contains(word));
+}
+
 }  // namespace talus::sample

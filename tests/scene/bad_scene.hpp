@@ -20,4 +20,16 @@ struct BadScene {
 /// Checks place, pointer and words of a mistake found in `text`.
 void check(const Mistake& mistake, const BadScene& bad, const std::string& text);
 
+/// A part of a scene that holds one mistake, the text that stands where it is placed, and what must be said.
+struct BadPart {
+  const char* requirement;
+  const char* part;
+  const char* pointer;
+  const char* at;
+  std::vector<const char*> words;
+};
+
+/// Checks that `text`, which holds the part, has this mistake alone.
+void check_alone(const BadPart& bad, const std::string& text);
+
 }  // namespace talus::sample

@@ -110,6 +110,13 @@ std::string good_but(const std::string& old_text, const std::string& new_text) {
   return text.replace(at, old_text.size(), new_text);
 }
 
+std::string good_with(const std::string& part) {
+  std::string text = good_but("\"material\": \"rock\"",
+                              "\"material\": \"rock\", \"surfaces\": {\"base\": [0], \"side\": [1, 3]}");
+  const std::string time = "\"time\":";
+  return text.replace(text.find(time), time.size(), part + ",\n  " + time);
+}
+
 Scene read(const std::string& text, const ReadOptions& options) {
   static Registry all = registry();  // scenes point into it
   return read_scene_text(text, "scene.json", all, options);

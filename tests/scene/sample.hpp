@@ -16,6 +16,10 @@ extern const char* const good;
 /// `good` with the only occurrence of `old_text` replaced.
 std::string good_but(const std::string& old_text, const std::string& new_text);
 
+/// `good` with surfaces "base" (edge 0) and "side" (edges 1 and 3) of the block, and with `part` before
+/// "time".
+std::string good_with(const std::string& part);
+
 Scene read(const std::string& text, const ReadOptions& options = {});
 
 /// The mistakes of a scene; empty if it passes.

@@ -96,7 +96,7 @@ TEST_CASE("a --set makes the sections on its way that a scene may leave out", "[
   CHECK(scene.limits.energy_residual == 0.05);
   CHECK(scene.output.history == 0.5);
   REQUIRE(scene.settle.has_value());
-  CHECK(scene.settle->damping == 3);
+  CHECK(scene.settle->damping.constant == 3);
   CHECK(std::string(scene.bodies[1].cover.component->component->name) == "rigid");
   CHECK(scene.bodies[1].support.x == 4);
   const std::string law = "{\"model\": \"shear\", \"shear\": {\"friction_rule\": \"paper\"}}";

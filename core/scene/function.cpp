@@ -1,0 +1,59 @@
+#include "scene/function.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace talus {
+namespace {
+
+double place_factor(const Product& product, Vec2 at) {
+  return product.scale * (product.x ? (*product.x)(at.x) : 1) * (product.y ? (*product.y)(at.y) : 1);
+}
+
+}  // namespace
+
+Table::Table(std::vector<double> at, std::vector<double> value)
+    : at_(std::move(at)), value_(std::move(value)), area_(at_.size()) {
+  for (std::size_t i = 1; i < at_.size(); ++i)
+    area_[i] = area_[i - 1] + (at_[i] - at_[i - 1]) * (value_[i - 1] / 2 + value_[i] / 2);
+  area_at_zero_ = antiderivative(0);
+}
+
+std::size_t Table::piece(double where) const {
+  return static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), where) - at_.begin()) - 1;
+}
+
+double Table::operator()(double where) const {
+  if (!(where > at_.front())) return value_.front();
+  if (where >= at_.back()) return value_.back();
+  const std::size_t i = piece(where);
+  const double share = (where - at_[i]) / (at_[i + 1] - at_[i]);
+  return (1 - share) * value_[i] + share * value_[i + 1];
+}
+
+double Table::antiderivative(double where) const {
+  if (!(where > at_.front())) return value_.front() * (where - at_.front());
+  if (where >= at_.back()) return area_.back() + value_.back() * (where - at_.back());
+  const std::size_t i = piece(where);
+  return area_[i] + (where - at_[i]) * (value_[i] / 2 + (*this)(where) / 2);
+}
+
+double Table::integral(double where) const {
+  return antiderivative(where) - area_at_zero_;
+}
+
+double Function::operator()(double time, Vec2 at) const {
+  double sum = 0;
+  for (const Product& product : terms)
+    sum += place_factor(product, at) * (product.time ? (*product.time)(time) : 1);
+  return sum;
+}
+
+double Function::integral(double time, Vec2 at) const {
+  double sum = 0;
+  for (const Product& product : terms)
+    sum += place_factor(product, at) * (product.time ? product.time->integral(time) : time);
+  return sum;
+}
+
+}  // namespace talus

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "scene/vec2.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace talus {
+
+/// Piecewise linear between points, constant beyond the first and the last.
+class Table {
+ public:
+  /// `at` rises strictly; as many values, at least one.
+  Table(std::vector<double> at, std::vector<double> value);
+
+  double operator()(double where) const;
+  /// ∫ from 0 to `where`, exact but for rounding.
+  double integral(double where) const;
+
+ private:
+  double antiderivative(double where) const;  ///< zero at the first point
+  std::size_t piece(double where) const;      ///< number of its left end; `where` lies between the ends
+
+  std::vector<double> at_, value_;
+  std::vector<double> area_;  ///< ∫ from the first point to each
+  double area_at_zero_;
+};
+
+/// scale · time(t) · x(X) · y(Y), without the factors that are left out.
+struct Product {
+  double scale = 0;
+  std::optional<Table> time, x, y;
+};
+
+/// A number that may depend on time and on the position at the start in the scene's coordinates: a sum of
+/// products. Zero where empty.
+struct Function {
+  std::vector<Product> terms;
+
+  double operator()(double time, Vec2 at) const;
+  /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
+  double integral(double time, Vec2 at) const;
+  bool zero() const { return terms.empty(); }
+};
+
+using VectorFunction = std::array<Function, 2>;
+
+}  // namespace talus
