@@ -57,6 +57,26 @@ std::string materials_text(const Scene& scene) {
   return listed(names);
 }
 
+std::string damping_text(const Damping& damping) {
+  if (damping.kind == Damping::Kind::adaptive) return "adaptive damping";
+  if (damping.kind == Damping::Kind::kinetic) return "kinetic damping";
+  return fmt::format("damping {:.6g} 1/s", damping.constant);
+}
+
+/// Covers of many elements, and what was done about their slivers.
+void print_covers(const Scene& scene, const Simulation& simulation) {
+  print_row("cover",
+            fmt::format("{} patches, {} elements", simulation.patch_count(), simulation.element_count()));
+  for (const SliverEffect& effect : simulation.slivers()) {
+    print_row(
+        "slivers",
+        fmt::format("body '{}': {} patches merged, {} with inertia added; critical step without contacts "
+                    "{:.4g} s, untreated {:.4g} s",
+                    scene.bodies[effect.body].name, effect.tied, effect.heavier, effect.dt,
+                    effect.untreated_dt));
+  }
+}
+
 void print_time(const Scene& scene, const Simulation& simulation) {
   const double critical = simulation.critical_dt();
   const double dt = scene.time.dt.value_or(scene.time.safety * critical);
@@ -69,8 +89,10 @@ void print_time(const Scene& scene, const Simulation& simulation) {
   if (std::isfinite(steps)) print_row("steps", fmt::format("about {:.0f}", std::max(steps, 1.0)));
   if (scene.settle) {
     print_row("settle",
-              fmt::format("{:.6g} s with damping {:.6g} 1/s", scene.settle->duration, scene.settle->damping));
+              fmt::format("{:.6g} s with {}", scene.settle->duration, damping_text(scene.settle->damping)));
   }
+  for (const Stage& stage : scene.stages)
+    print_row("stage", fmt::format("'{}' from {:.6g} s", stage.name, stage.from));
 }
 
 void print_scene(const Scene& scene, const Simulation& simulation,
@@ -78,6 +100,7 @@ void print_scene(const Scene& scene, const Simulation& simulation,
   fmt::print("{}: no mistake\n", scene.file);
   if (!scene.title.empty()) print_row("title", scene.title);
   print_row("bodies", bodies_text(scene));
+  print_covers(scene, simulation);
   print_row("materials", materials_text(scene));
   print_row("contact",
             scene.contact.component == nullptr ? "none" : scene.contact.component->component->name);
@@ -93,7 +116,6 @@ void print_scene(const Scene& scene, const Simulation& simulation,
   print_row("libraries", libraries.empty() ? "it names none by path"
                                            : fmt::format("it names {}: loaded, as --allow-plugins says",
                                                          listed(libraries)));
-  for (const std::string& warning : scene.warnings) print_row("warning", warning);
   for (const std::string& warning : simulation.summary().warnings) print_row("warning", warning);
 }
 

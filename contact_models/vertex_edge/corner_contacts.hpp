@@ -59,8 +59,10 @@ class CornerFinder {
   /// Cosine of the turn below which two edges count as one straight stretch.
   static constexpr double straight = 1 - 1e-9;
 
-  /// Whether the boundary turns here: neither the end of a cut nor a joint between collinear edges.
+  /// Whether the boundary turns here: neither the end of a cut nor a joint between collinear edges. A body of
+  /// many elements bends at every corner, and each side brings both of its ends.
   static bool is_vertex(const Piece& piece, std::uint32_t v) {
+    if (piece.is_strip()) return v < 2 && piece.real(0);
     const std::uint32_t before = piece.previous(v);
     return piece.real(v) && piece.real(before) && dot(piece.tangent(before), piece.tangent(v)) < straight;
   }
@@ -68,7 +70,7 @@ class CornerFinder {
   static void stand(const Piece& own, const Piece& other, std::uint32_t v, double bond_reach,
                     CornerContact contact, std::vector<CornerContact>& found) {
     const Point at = own.at(v);
-    const Point outward = own.tangent(own.previous(v)) - own.tangent(v);
+    const Point outward = own.is_strip() ? own.normal(0) : own.tangent(own.previous(v)) - own.tangent(v);
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= 0) continue;
@@ -82,7 +84,7 @@ class CornerFinder {
       contact.side = k;
       contact.depth = depth;
     }
-    const double edge = std::min(own.length(v), own.length(own.previous(v)));
+    const double edge = own.is_strip() ? own.length(0) : std::min(own.length(v), own.length(own.previous(v)));
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
@@ -92,12 +94,15 @@ class CornerFinder {
       if (other.depth(k, at) < -slack) return;
     }
     contact.lever = other.lever(contact.side, at);
-    contact.tributary = tributary_length(own, other, v, contact.side);
+    contact.tributary = own.is_strip() ? own.length(0) / 2 : tributary_length(own, other, v, contact.side);
+    // Both bodies bring the ends of all their sides: each does half.
+    if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
   }
 
   static bool mutual(const PiecePairGeometry& geometry, const CornerContact& p, const CornerContact& q) {
-    if (p.vertex_body == q.vertex_body) return false;
+    if (p.vertex_body == q.vertex_body || geometry.piece[0].is_strip() || geometry.piece[1].is_strip())
+      return false;
     const auto ends_at = [&](const CornerContact& contact, const CornerContact& other) {
       const Piece& piece = geometry.piece[1 - contact.vertex_body];
       const bool end_of_side = contact.side == other.vertex || piece.next(contact.side) == other.vertex;

@@ -181,7 +181,7 @@ class VertexEdge final : public ContactModel {
   static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
     if (const SpringHistory* old = find_old(work.old, contact.key)) return *old;
     SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0};
-    if (contact.share == 1) return history;
+    if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
     for (const CornerContact& other : work.found) {
       if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
         continue;

@@ -26,16 +26,22 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, int threads, 
   if (scene.contact.component == nullptr) return;
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   history_doubles_ = law_->doubles_per_contact();
-  for (std::vector<double> row : scene.interface_values) {
-    law_->prepare_interface(row.data());
-    interface_values_.insert(interface_values_.end(), row.begin(), row.end());
-  }
-  const auto parameters = scene.contact.component->component->interface_parameter_count;
-  interfaces_ = {scene.interface_row.data(), interface_values_.data(),
-                 static_cast<std::uint32_t>(scene.surfaces.size()), parameters};
+  interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
+                 scene.contact.component->component->interface_parameter_count};
+  set_interfaces(scene.interface_values);
   if (scene.roles_by_priority) {
     for (const SceneBody& body : scene.bodies) priority_.push_back(body.priority);
   }
+}
+
+void ContactStage::set_interfaces(const std::vector<std::vector<double>>& values) {
+  if (!law_) return;
+  interface_values_.clear();
+  for (std::vector<double> row : values) {
+    law_->prepare_interface(row.data());
+    interface_values_.insert(interface_values_.end(), row.begin(), row.end());
+  }
+  interfaces_.value = interface_values_.data();
 }
 
 /// A fixed body is master; between moving bodies both roles count half, or a declared priority decides.
@@ -67,9 +73,10 @@ void ContactStage::rebuild_pairs(const Model& model) {
     const Candidate& candidate = candidates_[i];
     if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {
       const Body &a = model.bodies[candidate.body_a], &b = model.bodies[candidate.body_b];
-      const double reduced_mass = fixed_[candidate.body_a]   ? b.mass
-                                  : fixed_[candidate.body_b] ? a.mass
-                                                             : a.mass * b.mass / (a.mass + b.mass);
+      const double reduced_mass = fixed_[candidate.body_a] ? b.contact_mass
+                                  : fixed_[candidate.body_b]
+                                      ? a.contact_mass
+                                      : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
       const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back({candidate.body_a, candidate.body_b, first, first, b.centre.x - a.centre.x,
                         b.centre.y - a.centre.y, master_share(candidate.body_a, candidate.body_b),
@@ -138,10 +145,10 @@ void ContactStage::call_law(const Model& model, const MotionState& motion, const
   std::fill(load_x_.begin(), load_x_.end(), 0.0);
   std::fill(load_y_.begin(), load_y_.end(), 0.0);
   std::fill(pair_reports_.begin(), pair_reports_.end(), PairReport{});
-  const Boundaries boundaries{motion.x.data(),         motion.y.data(),         motion.vx.data(),
-                              motion.vy.data(),        motion.tangent_x.data(), motion.tangent_y.data(),
-                              motion.length.data(),    model.surface.data(),    model.cut.data(),
-                              model.piece_start.data()};
+  const Boundaries boundaries{motion.x.data(),          motion.y.data(),         motion.vx.data(),
+                              motion.vy.data(),         motion.tangent_x.data(), motion.tangent_y.data(),
+                              motion.length.data(),     model.surface.data(),    model.cut.data(),
+                              model.piece_start.data(), model.is_strip.data()};
   const auto evaluate_range = [&](std::size_t begin, std::size_t end) {
     if (begin == end) return;
     const ContactBatch batch{
@@ -198,6 +205,13 @@ ContactTotals ContactStage::gather(const Model& model, MotionState& motion) {
     for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
       std::uint32_t load = piece_pairs_[p].load_start;
       for (const std::uint32_t piece : {piece_pairs_[p].a, piece_pairs_[p].b}) {
+        if (model.is_strip[piece] != 0) {
+          const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
+          motion.add_force(side.start, {load_x_[load], load_y_[load]});
+          motion.add_force(side.end, {load_x_[load + 1], load_y_[load + 1]});
+          load += model.piece_start[piece + 1] - model.piece_start[piece];
+          continue;
+        }
         BodyForce& force = motion.forces[model.piece_body[piece]];
         for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c, ++load) {
           force.add({model.reference_x[c], model.reference_y[c]}, {load_x_[load], load_y_[load]});

@@ -28,6 +28,9 @@ class ContactStage {
   const ContactModel* law() const { return law_.get(); }
   const Interfaces& interfaces() const { return interfaces_; }
 
+  /// Other parameters from now on, as [row][parameter] of the scene's interfaces.
+  void set_interfaces(const std::vector<std::vector<double>>& values);
+
   /// Seeks the candidates anew when something may have moved through the skin since the last search.
   /// `travelled` is how far the fastest corner can have moved since the last call, m.
   void find_pairs(const Model& model, const MotionState& motion, double travelled);

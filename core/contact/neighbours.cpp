@@ -62,13 +62,23 @@ void NeighbourSearch::fill_grid() {
   std::sort(grid_.begin(), grid_.end());
 }
 
+/// Two strips of one body that do not hang together at a corner.
+bool NeighbourSearch::may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q) {
+  if (!model.bodies[model.piece_body[p]].meets_itself || p == q) return false;
+  const std::uint32_t a = model.strips[model.piece_strip[p]].side,
+                      b = model.strips[model.piece_strip[q]].side;
+  return model.next_side[a] != b && model.previous_side[a] != b;
+}
+
 void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,
                             std::vector<Candidate>& candidates) const {
   const Box &a = boxes_[p], &b = boxes_[q];
   if (a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y) return;
   const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
-  if (body_p == body_q || (!model.moves(body_p) && !model.moves(body_q))) return;
-  candidates.push_back(body_p < body_q ? Candidate{body_p, body_q, p, q} : Candidate{body_q, body_p, q, p});
+  if (!model.moves(body_p) && !model.moves(body_q)) return;
+  if (body_p == body_q && !may_meet_itself(model, p, q)) return;
+  candidates.push_back(body_p < body_q || (body_p == body_q && p < q) ? Candidate{body_p, body_q, p, q}
+                                                                      : Candidate{body_q, body_p, q, p});
 }
 
 void NeighbourSearch::find(const Model& model, const MotionState& motion, double skin,

@@ -9,7 +9,8 @@
 
 namespace talus {
 
-/// Two pieces of different bodies whose boxes come within the skin of each other; body a < body b.
+/// Two pieces whose boxes come within the skin of each other; body a < body b, or piece a < piece b of a body
+/// that meets itself.
 struct Candidate {
   std::uint32_t body_a, body_b, piece_a, piece_b;
   auto operator<=>(const Candidate&) const = default;
@@ -35,6 +36,7 @@ class NeighbourSearch {
 
   void measure_boxes(const Model& model, const MotionState& motion, double skin);
   void fill_grid();
+  static bool may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q);
   void offer(const Model& model, std::uint32_t p, std::uint32_t q, std::vector<Candidate>& candidates) const;
 
   double cell_ = 1;  ///< m, edge of a grid cell

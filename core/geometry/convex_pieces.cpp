@@ -12,7 +12,7 @@ namespace talus {
 namespace {
 
 /// A connected region: ring 0 is its outer boundary, the others are holes.
-using Region = std::vector<ConvexPiece>;
+using RingSet = std::vector<ConvexPiece>;
 
 Vec2 direction(Vec2 from, Vec2 to) {
   const double dx = to.x - from.x, dy = to.y - from.y, size = std::sqrt(dx * dx + dy * dy);
@@ -34,7 +34,7 @@ struct Place {
   std::size_t ring, corner;
 };
 
-std::optional<Place> reflex_corner(const Region& region) {
+std::optional<Place> reflex_corner(const RingSet& region) {
   for (std::size_t r = 0; r < region.size(); ++r) {
     const ConvexPiece& ring = region[r];
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -56,7 +56,7 @@ Vec2 inner_bisector(const ConvexPiece& ring, std::size_t i) {
 }
 
 /// First boundary ahead of a corner; splits the side it hits unless the hit is at one of its ends.
-Place cut_target(Region& region, Place from, Vec2 along) {
+Place cut_target(RingSet& region, Place from, Vec2 along) {
   const Vec2 start = region[from.ring][from.corner].at;
   double nearest = std::numeric_limits<double>::infinity(), share = 0;
   std::optional<Place> hit;
@@ -106,7 +106,7 @@ bool inside(const ConvexPiece& ring, Vec2 p) {
 }
 
 /// A cut to another ring joins the two rings; a cut to the own ring divides the region.
-void divide(Region region, std::uint32_t& cuts, std::vector<ConvexPiece>& pieces) {
+void divide(RingSet region, std::uint32_t& cuts, std::vector<ConvexPiece>& pieces) {
   while (const std::optional<Place> corner = reflex_corner(region)) {
     Place from = *corner;
     const Vec2 along = inner_bisector(region[from.ring], from.corner);
@@ -126,7 +126,8 @@ void divide(Region region, std::uint32_t& cuts, std::vector<ConvexPiece>& pieces
       continue;
     }
     const ConvexPiece ring = region[from.ring];
-    Region halves[2] = {{part(ring, from.corner, to.corner, cut)}, {part(ring, to.corner, from.corner, cut)}};
+    RingSet halves[2] = {{part(ring, from.corner, to.corner, cut)},
+                         {part(ring, to.corner, from.corner, cut)}};
     for (std::size_t r = 0; r < region.size(); ++r) {
       if (r == from.ring) continue;
       halves[inside(halves[0][0], region[r][0].at) ? 0 : 1].push_back(region[r]);
@@ -148,7 +149,7 @@ ConvexPiece ring_of(const Loop& loop) {
 }  // namespace
 
 std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes) {
-  Region region{ring_of(outer)};
+  RingSet region{ring_of(outer)};
   for (const Loop& hole : holes) region.push_back(ring_of(hole));
   std::vector<ConvexPiece> pieces;
   std::uint32_t cuts = 0;

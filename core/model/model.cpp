@@ -1,33 +1,16 @@
 #include "model/model.hpp"
 
-#include <fmt/format.h>
+#include "model/covered_body.hpp"
+#include "model/laid_cover.hpp"
+#include "model/strips.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace talus {
 namespace {
-
-/// Takes what a cover builder makes of one body.
-class BodySink final : public CoverSink {
- public:
-  std::uint32_t add_patch(double x, double y) noexcept override {
-    patches.push_back({x, y});
-    return static_cast<std::uint32_t>(patches.size() - 1);
-  }
-
-  std::uint32_t add_element(const std::uint32_t /*patches*/[3], const AreaMoments& region) noexcept override {
-    moments = region;
-    return elements++;
-  }
-
-  void make_rigid() noexcept override { rigid = true; }
-
-  std::vector<Vec2> patches;
-  AreaMoments moments{};
-  std::uint32_t elements = 0;
-  bool rigid = false;
-};
 
 AreaMoments moments_about(const SceneBody& body, Vec2 centre) {
   AreaMoments sum = ring_moments(body.outer.vertices, centre);
@@ -35,45 +18,16 @@ AreaMoments moments_about(const SceneBody& body, Vec2 centre) {
   return sum;
 }
 
-BodySink lay_cover(const SceneBody& scene_body, const Body& body) {
-  std::vector<double> x, y;
-  std::vector<std::uint32_t> loop_start{0};
-  const auto append = [&](const Loop& loop) {
-    for (const Vec2& vertex : loop.vertices) {
-      x.push_back(vertex.x - body.centre.x);
-      y.push_back(vertex.y - body.centre.y);
-    }
-    loop_start.push_back(static_cast<std::uint32_t>(x.size()));
-  };
-  append(scene_body.outer);
-  for (const Loop& hole : scene_body.holes) append(hole);
-
-  const auto builder = make<CoverBuilder>(*scene_body.cover.component, scene_body.cover.values);
-  BodySink sink;
-  builder->build({x.data(), y.data(), loop_start.data(), static_cast<std::uint32_t>(loop_start.size() - 1)},
-                 body.moments, sink);
-  if (!sink.rigid && (sink.elements != 1 || sink.patches.size() != 3)) {
-    throw PluginError(
-        fmt::format("{}: cover '{}' made {} patches and {} elements of body '{}'; this version carries one "
-                    "element of three "
-                    "patches, or a rigid body",
-                    scene_body.cover.component->file.string(), scene_body.cover.component->component->name,
-                    sink.patches.size(), sink.elements, scene_body.name));
-  }
-  return sink;
-}
-
 void set_mass(Body& body, double density) {
   const AreaMoments& m = body.moments;
-  body.mass = density * m.area;
+  body.mass = body.contact_mass = density * m.area;
   body.inertia = density * (m.xx + m.yy);
   const double determinant = density * (m.xx * m.yy - m.xy * m.xy);
   body.inverse_moment = {m.yy / determinant, -m.xy / determinant, -m.xy / determinant, m.xx / determinant};
 }
 
-void add_pieces(Model& model, const SceneBody& scene_body, Body& body, std::uint32_t index) {
-  body.piece_begin = static_cast<std::uint32_t>(model.piece_body.size());
-  body.corner_begin = static_cast<std::uint32_t>(model.surface.size());
+/// The convex pieces of a body that moves as a whole.
+void add_pieces(Model& model, const SceneBody& scene_body, const Body& body, std::uint32_t index) {
   for (const ConvexPiece& piece : convex_pieces(scene_body.outer, scene_body.holes)) {
     for (const PieceCorner& corner : piece) {
       model.reference_x.push_back(corner.at.x - body.centre.x);
@@ -84,20 +38,103 @@ void add_pieces(Model& model, const SceneBody& scene_body, Body& body, std::uint
     }
     model.piece_body.push_back(index);
     model.piece_start.push_back(static_cast<std::uint32_t>(model.surface.size()));
+    model.is_strip.push_back(0);
+    model.piece_strip.push_back(0);
+  }
+}
+
+/// The boundary of a body that moves as a whole.
+void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index) {
+  Body& body = model.bodies[index];
+  body.side_begin = static_cast<std::uint32_t>(model.sides.size());
+  const auto append = [&](const Loop& loop) {
+    const auto first = static_cast<std::uint32_t>(model.sides.size());
+    const auto count = static_cast<std::uint32_t>(loop.vertices.size());
+    const auto point = [&](std::uint32_t i) {
+      const Vec2 at = loop.vertices[i % count];
+      return MaterialPoint{index, {at.x - body.centre.x, at.y - body.centre.y}, {}};
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      model.sides.push_back({point(i), point(i + 1), loop.surface_class[i]});
+      model.next_side.push_back(first + (i + 1) % count);
+      model.previous_side.push_back(first + (i + count - 1) % count);
+      model.side_size.push_back(body.width);
+    }
+  };
+  append(scene_body.outer);
+  for (const Loop& hole : scene_body.holes) append(hole);
+  body.side_end = static_cast<std::uint32_t>(model.sides.size());
+}
+
+void add_element_of_block(Model& model, std::uint32_t index) {
+  Element element;
+  element.body = index;
+  element.area = model.bodies[index].moments.area;
+  model.elements.push_back(element);
+  model.element_region.emplace_back();
+}
+
+void add_body(Model& model, const Scene& scene, std::uint32_t index) {
+  const SceneBody& scene_body = scene.bodies[index];
+  Body& body = model.bodies.emplace_back();
+  const Vec2 first = scene_body.outer.vertices.front();
+  const AreaMoments about_first = moments_about(scene_body, first);
+  body.centre = {first.x + about_first.x / about_first.area, first.y + about_first.y / about_first.area};
+  body.moments = about_centroid(moments_about(scene_body, body.centre));
+  body.width = smallest_width(scene_body.outer.vertices);
+  body.piece_begin = static_cast<std::uint32_t>(model.piece_body.size());
+  body.corner_begin = static_cast<std::uint32_t>(model.surface.size());
+  if (!scene_body.fixed) {
+    const double density = scene.materials[scene_body.material].density;
+    const LaidCover cover = lay_cover(scene_body, body);
+    set_mass(body, density);
+    if (cover.rigid) {
+      body.kinematics = Kinematics::rigid;
+    } else if (cover.elements.size() == 1 && cover.patches.size() == 3) {
+      body.kinematics = Kinematics::affine;
+      add_element_of_block(model, index);
+    } else {
+      body.kinematics = Kinematics::covered;
+      add_covered_body(model, scene_body, index, cover, density);
+    }
+  }
+  if (model.covered(index)) {
+    add_strips(model, index);
+  } else {
+    add_pieces(model, scene_body, body, index);
+    if (!scene_body.fixed) add_sides(model, scene_body, index);
   }
   body.piece_end = static_cast<std::uint32_t>(model.piece_body.size());
   body.corner_end = static_cast<std::uint32_t>(model.surface.size());
 }
 
+/// One batch per material needs the elements side by side.
 void sort_elements(Model& model, const Scene& scene) {
-  model.material_element_start.push_back(0);
-  for (std::uint32_t material = 0; material < scene.materials.size(); ++material) {
-    for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
-      const bool here = scene.bodies[i].material == material;
-      if (here && model.bodies[i].kinematics == Kinematics::affine) model.element_body.push_back(i);
-    }
-    model.material_element_start.push_back(static_cast<std::uint32_t>(model.element_body.size()));
+  std::vector<std::uint32_t> order(model.elements.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto material = [&](std::uint32_t e) { return scene.bodies[model.elements[e].body].material; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); });
+  std::vector<Element> elements;
+  std::vector<std::vector<Ring>> regions;
+  model.body_element.resize(order.size());
+  model.material_element_start.assign(scene.materials.size() + 1, 0);
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    elements.push_back(model.elements[order[i]]);
+    regions.push_back(std::move(model.element_region[order[i]]));
+    model.body_element[order[i]] = i;
+    ++model.material_element_start[material(order[i]) + 1];
   }
+  std::partial_sum(model.material_element_start.begin(), model.material_element_start.end(),
+                   model.material_element_start.begin());
+  std::uint32_t entry = 0;
+  for (std::uint32_t body = 0; body < model.bodies.size(); ++body) {
+    model.bodies[body].element_begin = entry;
+    while (entry < order.size() && model.elements[entry].body == body) ++entry;
+    model.bodies[body].element_end = entry;
+  }
+  model.elements = std::move(elements);
+  model.element_region = std::move(regions);
 }
 
 void measure_widths(Model& model) {
@@ -113,29 +150,59 @@ void measure_widths(Model& model) {
   model.mean_width = moving > 0 ? sum / static_cast<double>(moving) : 0;
 }
 
+/// Squared distance to a region; 0 within it.
+double squared_distance(const std::vector<Ring>& region, Vec2 p) {
+  bool odd = false;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Ring& ring : region) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1];
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+      const Vec2 side{b.x - a.x, b.y - a.y};
+      const double length = side.x * side.x + side.y * side.y;
+      const double along = length > 0 ? ((p.x - a.x) * side.x + (p.y - a.y) * side.y) / length : 0;
+      const double place = std::clamp(along, 0.0, 1.0);
+      const double dx = p.x - a.x - place * side.x, dy = p.y - a.y - place * side.y;
+      nearest = std::min(nearest, dx * dx + dy * dy);
+    }
+  }
+  return odd ? 0 : nearest;
+}
+
 }  // namespace
+
+std::uint32_t Model::element_at(std::uint32_t body, Vec2 reference) const {
+  std::uint32_t best = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = bodies[body].element_begin; i < bodies[body].element_end && nearest > 0; ++i) {
+    const double distance = squared_distance(element_region[body_element[i]], reference);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = body_element[i];
+  }
+  return best;
+}
+
+MaterialPoint Model::point(std::uint32_t body, Vec2 reference) const {
+  if (!covered(body)) return {body, reference, {}};
+  return {body, reference, carrier(elements[element_at(body, reference)], reference)};
+}
+
+Carrier Model::carrier(const Element& element, Vec2 reference) const {
+  Carrier result{element.patch, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // From the next star point, where the weight is 0.
+    const Vec2 zero = patch_star[element.patch[(i + 1) % 3]], g = element.gradient[i];
+    result.weight[i] = g.x * (reference.x - zero.x) + g.y * (reference.y - zero.y);
+  }
+  return result;
+}
 
 Model build_model(const Scene& scene) {
   Model model;
   model.piece_start.push_back(0);
-  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& scene_body = scene.bodies[i];
-    Body body;
-    const Vec2 first = scene_body.outer.vertices.front();
-    const AreaMoments about_first = moments_about(scene_body, first);
-    body.centre = {first.x + about_first.x / about_first.area, first.y + about_first.y / about_first.area};
-    body.moments = about_centroid(moments_about(scene_body, body.centre));
-    body.width = smallest_width(scene_body.outer.vertices);
-    if (!scene_body.fixed) {
-      BodySink cover = lay_cover(scene_body, body);
-      body.kinematics = cover.rigid ? Kinematics::rigid : Kinematics::affine;
-      if (!cover.rigid) body.moments = cover.moments;
-      body.patches = std::move(cover.patches);
-      set_mass(body, scene.materials[scene_body.material].density);
-    }
-    add_pieces(model, scene_body, body, i);
-    model.bodies.push_back(std::move(body));
-  }
+  model.bodies.reserve(scene.bodies.size());
+  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) add_body(model, scene, i);
   sort_elements(model, scene);
   measure_widths(model);
   return model;

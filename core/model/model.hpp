@@ -4,29 +4,82 @@
 #include "geometry/polygon.hpp"
 #include "scene/scene.hpp"
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace talus {
 
-enum class Kinematics { fixed, rigid, affine };
+/// How a body moves: not at all, by (u, θ), by (u, H) of one element, or by the displacements of its patches.
+enum class Kinematics { fixed, rigid, affine, covered };
 
 struct Matrix2 {
   double xx = 0, xy = 0, yx = 0, yy = 0;
 };
 
+inline constexpr std::uint32_t no_patch = 0xFFFFFFFFu;
+
+/// Three patches and their weights at a point (Eq. 11); no_patch where the motion of the body as a whole says
+/// it all.
+struct Carrier {
+  std::array<std::uint32_t, 3> patch{no_patch, no_patch, no_patch};
+  std::array<double, 3> weight{};
+};
+
+/// A point of a body and what carries it.
+struct MaterialPoint {
+  std::uint32_t body = 0;
+  Vec2 reference;  ///< m, X relative to the centroid at the start
+  Carrier carrier;
+};
+
+/// A side of a body's boundary between two corners; displacement is affine along it.
+struct BoundarySide {
+  MaterialPoint start, end;
+  std::uint32_t surface;  ///< index into Scene::surfaces
+};
+
+/// Three patches and the gradients of their weights; in an affine block the body itself (no_patch).
+struct Element {
+  std::uint32_t body = 0;
+  std::array<std::uint32_t, 3> patch{no_patch, no_patch, no_patch};
+  std::array<Vec2, 3> gradient{};  ///< 1/m
+  double area = 0;                 ///< m²
+};
+
+/// A patch that follows the affine continuation of three others (CoverSink::steady_patch).
+struct SteadyPatch {
+  std::uint32_t patch;
+  Carrier to;
+  double inertia;  ///< kg per metre of thickness against the deviation; infinite: none is allowed
+};
+
+/// A piece of a body of many elements: what lies behind one side of its boundary.
+struct Strip {
+  std::uint32_t side;                              ///< index into Model::sides
+  double depth;                                    ///< m
+  std::uint32_t competitor_begin, competitor_end;  ///< entries of Model::competitors
+};
+
 /// What stays of a body while it moves. Positions X are relative to the centroid at the start.
 struct Body {
   Kinematics kinematics = Kinematics::fixed;
-  Vec2 centre;             ///< m, centroid at the start, without the scene's origin
-  double mass = 0;         ///< kg per metre of thickness
-  AreaMoments moments{};   ///< about the centroid
-  double inertia = 0;      ///< kg m, about the centroid (rigid)
-  Matrix2 inverse_moment;  ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
-  double width = 0;        ///< m, smallest
+  Vec2 centre;                ///< m, centroid at the start, without the scene's origin
+  double mass = 0;            ///< kg per metre of thickness
+  AreaMoments moments{};      ///< about the centroid
+  double inertia = 0;         ///< kg m, about the centroid (rigid)
+  Matrix2 inverse_moment;     ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
+  double width = 0;           ///< m, smallest; of many elements: the smaller of that and their typical size
+  bool meets_itself = false;  ///< whether parts of its boundary may touch each other
+  double contact_mass = 0;    ///< kg per metre: that of the body, or of a patch of the boundary
+  double contact_depth = std::numeric_limits<double>::infinity();  ///< m, how deep contact can be seen
   std::uint32_t corner_begin = 0, corner_end = 0;
   std::uint32_t piece_begin = 0, piece_end = 0;
-  std::vector<Vec2> patches;  ///< star points, relative to the centroid
+  std::uint32_t side_begin = 0, side_end = 0;        ///< boundary sides of a moving body
+  std::uint32_t patch_begin = 0, patch_end = 0;      ///< covered: its patches
+  std::uint32_t steady_begin = 0, steady_end = 0;    ///< covered: its steadied patches
+  std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
 };
 
 /// The bodies of a scene as arrays.
@@ -34,28 +87,53 @@ struct Body {
 /// The three patch displacements of an affine block are written as d_i = u + H X_i: u the displacement of the
 /// centroid, H the displacement gradient. In that basis the consistent mass of Eq. 17 falls apart into m for
 /// u and ρJ for each row of H, J the second moments of the polygon, and the block is updated in closed form.
-/// A rigid body is the same with H = R − I.
+/// A rigid body is the same with H = R − I. A body of many elements keeps its patches, with the row sums of
+/// Eq. 17 as masses.
 struct Model {
   std::vector<Body> bodies;
 
-  // Corners of the convex pieces of all bodies.
+  // Corners of the pieces of all bodies (see talus::Boundaries).
   std::vector<double> reference_x, reference_y;  ///< [corner] m, X
-  std::vector<std::uint32_t> surface, cut;       ///< [corner] see talus::Boundaries
+  std::vector<std::uint32_t> surface, cut;       ///< [corner]
   std::vector<std::uint32_t> corner_body;        ///< [corner]
   std::vector<std::uint32_t> piece_start;        ///< [piece + 1]
   std::vector<std::uint32_t> piece_body;         ///< [piece]
+  std::vector<std::uint8_t> is_strip;            ///< [piece]
+  std::vector<std::uint32_t> piece_strip;        ///< [piece] of a strip: its entry in `strips`
+  std::vector<Strip> strips;
+  std::vector<std::uint32_t> competitors;  ///< sides that a strip shares its ground with
 
-  // Elements of the affine blocks, sorted by material.
-  std::vector<std::uint32_t> element_body;            ///< [element]
+  std::vector<BoundarySide> sides;  ///< of the moving bodies, body after body, loop after loop
+  std::vector<std::uint32_t> next_side, previous_side;  ///< [side] around its loop
+  std::vector<double>
+      side_size;  ///< [side] m, side of an equilateral triangle as large as the element's patches
+
+  // Bodies of many elements.
+  std::vector<Vec2> patch_star;    ///< [patch] m, X of the star point
+  std::vector<double> patch_mass;  ///< [patch] kg per metre of thickness, row sum of Eq. 17
+  std::vector<double> row_sum;     ///< [patch] the same before anything was done about slivers
+  std::vector<SteadyPatch> steady;
+
+  // Elements of the bodies that deform, sorted by material.
+  std::vector<Element> elements;
   std::vector<std::uint32_t> material_element_start;  ///< [material + 1]
+  std::vector<std::uint32_t> body_element;            ///< elements body after body, as the cover made them
+  std::vector<std::vector<Ring>> element_region;      ///< [element] rings, m, X; empty for an affine block
 
   double smallest_width = 0;  ///< m, of the moving bodies
   double mean_width = 0;
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
+  bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
+
+  /// A point of a body by its reference position; of a body of many elements, in the element it lies in or,
+  /// outside all, nearest to.
+  MaterialPoint point(std::uint32_t body, Vec2 reference) const;
+  std::uint32_t element_at(std::uint32_t body, Vec2 reference) const;
+  Carrier carrier(const Element& element, Vec2 reference) const;
 };
 
-/// Throws PluginError when a cover builder makes what the program cannot carry.
+/// Throws PluginError when a cover builder refuses a body or makes what is no cover.
 Model build_model(const Scene& scene);
 
 }  // namespace talus

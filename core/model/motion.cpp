@@ -1,5 +1,7 @@
 #include "model/motion.hpp"
 
+#include "model/strips.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,9 @@ namespace talus {
 MotionState::MotionState(const Model& model)
     : bodies(model.bodies.size()),
       forces(model.bodies.size()),
+      patch_displacement(model.patch_star.size()),
+      patch_velocity(model.patch_star.size()),
+      patch_force(model.patch_star.size()),
       x(model.reference_x),
       y(model.reference_y),
       vx(x.size(), 0.0),
@@ -30,6 +35,79 @@ Vec2 velocity(const BodyMotion& m, Vec2 p) {
   return {m.velocity.x + m.rate.xx * p.x + m.rate.xy * p.y, m.velocity.y + m.rate.yx * p.x + m.rate.yy * p.y};
 }
 
+Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& values) {
+  Vec2 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.x += carrier.weight[i] * values[carrier.patch[i]].x;
+    sum.y += carrier.weight[i] * values[carrier.patch[i]].y;
+  }
+  return sum;
+}
+
+Vec2 MotionState::displacement(const MaterialPoint& point) const {
+  if (point.carrier.patch[0] == no_patch) return talus::displacement(bodies[point.body], point.reference);
+  return carried(point.carrier, patch_displacement);
+}
+
+Vec2 MotionState::velocity(const MaterialPoint& point) const {
+  if (point.carrier.patch[0] == no_patch) return talus::velocity(bodies[point.body], point.reference);
+  return carried(point.carrier, patch_velocity);
+}
+
+void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
+  if (point.carrier.patch[0] == no_patch) {
+    forces[point.body].add(point.reference, load);
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec2& force = patch_force[point.carrier.patch[i]];
+    force.x += point.carrier.weight[i] * load.x;
+    force.y += point.carrier.weight[i] * load.y;
+  }
+}
+
+void MotionState::stop() {
+  for (BodyMotion& body : bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
+  for (Vec2& velocity : patch_velocity) velocity = {};
+}
+
+Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) {
+  Matrix2 h;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 d = patch_values[element.patch[i]], g = element.gradient[i];
+    h.xx += d.x * g.x;
+    h.xy += d.x * g.y;
+    h.yx += d.y * g.x;
+    h.yy += d.y * g.y;
+  }
+  return h;
+}
+
+void MotionState::average(const Model& model, std::uint32_t index) {
+  const Body& body = model.bodies[index];
+  BodyMotion mean;
+  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    const double share = model.patch_mass[p] / body.mass;
+    mean.u.x += share * patch_displacement[p].x;
+    mean.u.y += share * patch_displacement[p].y;
+    mean.velocity.x += share * patch_velocity[p].x;
+    mean.velocity.y += share * patch_velocity[p].y;
+  }
+  const auto add = [](Matrix2& sum, double share, const Matrix2& h) {
+    sum.xx += share * h.xx;
+    sum.xy += share * h.xy;
+    sum.yx += share * h.yx;
+    sum.yy += share * h.yy;
+  };
+  for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
+    const Element& element = model.elements[model.body_element[i]];
+    const double share = element.area / body.moments.area;
+    add(mean.h, share, gradient(element, patch_displacement));
+    add(mean.rate, share, gradient(element, patch_velocity));
+  }
+  bodies[index] = mean;
+}
+
 void MotionState::move_boundary(const Model& model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (model.bodies[i].kinematics == Kinematics::fixed) continue;
@@ -38,11 +116,28 @@ void MotionState::move_boundary(const Model& model) {
   }
 }
 
-void MotionState::move_corners(const Model& model, std::size_t body) {
-  const BodyMotion& motion = bodies[body];
-  for (std::uint32_t c = model.bodies[body].corner_begin; c < model.bodies[body].corner_end; ++c) {
+void MotionState::move_corners(const Model& model, std::size_t index) {
+  const Body& body = model.bodies[index];
+  if (body.kinematics == Kinematics::covered) {
+    const auto move = [&](const MaterialPoint& point, std::uint32_t c) {
+      const Vec2 moved = displacement(point), speed = velocity(point);
+      x[c] = point.reference.x + moved.x;
+      y[c] = point.reference.y + moved.y;
+      vx[c] = speed.x;
+      vy[c] = speed.y;
+    };
+    for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
+      const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
+      move(side.start, model.piece_start[piece]);
+      move(side.end, model.piece_start[piece] + 1);
+    }
+    shape_strips(model, static_cast<std::uint32_t>(index), *this);
+    return;
+  }
+  const BodyMotion& motion = bodies[index];
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
     const Vec2 reference{model.reference_x[c], model.reference_y[c]};
-    const Vec2 moved = displacement(motion, reference), speed = velocity(motion, reference);
+    const Vec2 moved = talus::displacement(motion, reference), speed = talus::velocity(motion, reference);
     x[c] = reference.x + moved.x;
     y[c] = reference.y + moved.y;
     vx[c] = speed.x;

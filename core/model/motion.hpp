@@ -6,7 +6,7 @@
 
 namespace talus {
 
-/// Where every body is and how it moves: x = X + u + H X, X relative to the body's centroid at the start, x
+/// Where a body is and how it moves: x = X + u + H X, X relative to the body's centroid at the start, x
 /// too. Velocities are those of the half step, so that x_n − x_{n−1} = v Δt (Eq. 22).
 struct BodyMotion {
   Vec2 u;           ///< m
@@ -35,13 +35,27 @@ struct BodyForce {
 struct MotionState {
   explicit MotionState(const Model& model);
 
-  std::vector<BodyMotion> bodies;
+  std::vector<BodyMotion> bodies;  ///< of a body of many elements: the mean, as of the last average()
   std::vector<BodyForce> forces;
+  std::vector<Vec2> patch_displacement;              ///< [patch] m
+  std::vector<Vec2> patch_velocity;                  ///< [patch] m/s
+  std::vector<Vec2> patch_force;                     ///< [patch] N/m
   std::vector<double> x, y, vx, vy;                  ///< [corner] in the frame of the body, m, m/s
   std::vector<double> tangent_x, tangent_y, length;  ///< [corner] of the side that starts there
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
+
+  /// Takes all velocities away.
+  void stop();
+
+  /// Brings `bodies` of a body of many elements up to date: motion of the centre of mass, mean gradient and
+  /// mean rate over its area.
+  void average(const Model& model, std::uint32_t body);
+
+  Vec2 displacement(const MaterialPoint& point) const;  ///< m
+  Vec2 velocity(const MaterialPoint& point) const;      ///< m/s, of the half step
+  void add_force(const MaterialPoint& point, Vec2 load);
 
   struct Speeds {
     double largest = 0;   ///< m/s, of a corner; NaN if any is
@@ -54,8 +68,15 @@ struct MotionState {
   void measure_sides(const Model& model, std::size_t body);
 };
 
+/// Of the point of a body that moves as a whole.
 Vec2 displacement(const BodyMotion& motion, Vec2 reference);
 Vec2 velocity(const BodyMotion& motion, Vec2 reference);
+
+/// Σ w_i d_i (Eq. 11).
+Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values);
+
+/// Displacement gradient of an element of many, or of its rate: Σ d_i ⊗ ∇w_i.
+Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values);
 
 /// ΣF r × F of a body force about the displaced centroid, N.
 double torque(const BodyMotion& motion, const BodyForce& force);

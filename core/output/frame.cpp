@@ -17,16 +17,16 @@ void append(std::vector<double>& values, Vec2 vector) {
 }
 
 /// A polygon as it is; with holes, triangles, since a VTK polygon has none.
-std::vector<std::vector<std::int64_t>> cells_of(const FrameBody& body) {
+std::vector<std::vector<std::int64_t>> cells_of(const BodyPart& body) {
   if (body.loops.size() == 1) {
     std::vector<std::int64_t> corners(body.loops[0].size());
     std::iota(corners.begin(), corners.end(), 0);
     return {corners};
   }
   std::vector<std::vector<Vec2>> loops;
-  for (const std::vector<FramePoint>& loop : body.loops) {
+  for (const std::vector<PartPoint>& loop : body.loops) {
     loops.emplace_back();
-    for (const FramePoint& point : loop) loops.back().push_back(point.position);
+    for (const PartPoint& point : loop) loops.back().push_back(point.position);
   }
   std::vector<std::vector<std::int64_t>> cells;
   for (const auto& [a, b, c] : triangulate(loops)) cells.push_back({a, b, c});
@@ -37,9 +37,11 @@ std::vector<std::vector<std::int64_t>> cells_of(const FrameBody& body) {
 
 bool Frame::finite() const {
   for (const FrameBody& body : bodies) {
-    for (const std::vector<FramePoint>& loop : body.loops) {
-      for (const FramePoint& point : loop) {
-        if (!std::isfinite(point.position.x) || !std::isfinite(point.position.y)) return false;
+    for (const BodyPart& part : body.parts) {
+      for (const std::vector<PartPoint>& loop : part.loops) {
+        for (const PartPoint& point : loop) {
+          if (!std::isfinite(point.position.x) || !std::isfinite(point.position.y)) return false;
+        }
       }
     }
   }
@@ -50,23 +52,8 @@ Frame sample_frame(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   Frame frame{simulation.time(), scene.origin, {}, simulation.contacts()};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& body = scene.bodies[i];
-    const Motion motion = simulation.body_motion(i);
-    FrameBody& shown = frame.bodies.emplace_back(FrameBody{{},
-                                                           body.material,
-                                                           std::hypot(motion.velocity.x, motion.velocity.y),
-                                                           motion.stress_xx,
-                                                           motion.stress_yy,
-                                                           motion.stress_xy});
-    const auto add_loop = [&](const Loop& loop) {
-      std::vector<FramePoint>& points = shown.loops.emplace_back();
-      for (const Vec2 vertex : loop.vertices) {
-        const Motion point = simulation.point_motion(i, vertex);
-        points.push_back({point.position, point.displacement, point.velocity});
-      }
-    };
-    add_loop(body.outer);
-    for (const Loop& hole : body.holes) add_loop(hole);
+    const Vec2 speed = simulation.body_motion(i).velocity;
+    frame.bodies.push_back({simulation.parts(i), scene.bodies[i].material, std::hypot(speed.x, speed.y)});
   }
   return frame;
 }
@@ -97,30 +84,36 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder) : folder_(folder) 
 
 Grid FrameWriter::body_grid(const Frame& frame) {
   if (cells_.empty()) {
-    for (const FrameBody& body : frame.bodies) cells_.push_back(cells_of(body));
+    for (const FrameBody& body : frame.bodies) {
+      cells_.emplace_back();
+      for (const BodyPart& part : body.parts) cells_.back().push_back(cells_of(part));
+    }
   }
   Grid grid;
   std::vector<double> displacement, velocity, speed, stress_xx, stress_yy, stress_xy;
   std::vector<std::int32_t> material, number;
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
     const FrameBody& body = frame.bodies[i];
-    const auto first = static_cast<std::int64_t>(grid.points.size() / 3);
-    for (const std::vector<FramePoint>& loop : body.loops) {
-      for (const FramePoint& point : loop) {
-        append(grid.points, {frame.origin.x + point.position.x, frame.origin.y + point.position.y});
-        append(displacement, point.displacement);
-        append(velocity, point.velocity);
+    for (std::size_t p = 0; p < body.parts.size(); ++p) {
+      const BodyPart& part = body.parts[p];
+      const auto first = static_cast<std::int64_t>(grid.points.size() / 3);
+      for (const std::vector<PartPoint>& loop : part.loops) {
+        for (const PartPoint& point : loop) {
+          append(grid.points, {frame.origin.x + point.position.x, frame.origin.y + point.position.y});
+          append(displacement, point.displacement);
+          append(velocity, point.velocity);
+        }
       }
-    }
-    for (std::vector<std::int64_t> corners : cells_[i]) {
-      for (std::int64_t& corner : corners) corner += first;
-      grid.add_cell(body.loops.size() == 1 ? CellType::polygon : CellType::triangle, corners);
-      speed.push_back(body.speed);
-      stress_xx.push_back(body.stress_xx);
-      stress_yy.push_back(body.stress_yy);
-      stress_xy.push_back(body.stress_xy);
-      material.push_back(static_cast<std::int32_t>(body.material));
-      number.push_back(static_cast<std::int32_t>(i));
+      for (std::vector<std::int64_t> corners : cells_[i][p]) {
+        for (std::int64_t& corner : corners) corner += first;
+        grid.add_cell(part.loops.size() == 1 ? CellType::polygon : CellType::triangle, corners);
+        speed.push_back(body.speed);
+        stress_xx.push_back(part.stress[0]);
+        stress_yy.push_back(part.stress[1]);
+        stress_xy.push_back(part.stress[2]);
+        material.push_back(static_cast<std::int32_t>(body.material));
+        number.push_back(static_cast<std::int32_t>(i));
+      }
     }
   }
   grid.point_data = {{"displacement", 3, displacement}, {"velocity", 3, velocity}};

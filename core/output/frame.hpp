@@ -9,15 +9,10 @@
 
 namespace talus {
 
-struct FramePoint {
-  Vec2 position, displacement, velocity;  ///< m without the scene's origin, m, m/s
-};
-
 struct FrameBody {
-  std::vector<std::vector<FramePoint>> loops;  ///< outer one first, counter-clockwise; holes clockwise
+  std::vector<BodyPart> parts;
   std::uint32_t material;
-  double speed;                            ///< m/s, of the centre of mass
-  double stress_xx, stress_yy, stress_xy;  ///< Pa
+  double speed;  ///< m/s, of the centre of mass
 };
 
 /// All that a picture of one instant shows.
@@ -46,8 +41,8 @@ class FrameWriter {
   std::filesystem::path folder_;
   std::size_t count_ = 0;
   std::string entries_;  ///< DataSet lines of the .pvd
-  std::vector<std::vector<std::vector<std::int64_t>>>
-      cells_;  ///< [body][cell][corner], as in the first frame
+  /// [body][part][cell][corner], as in the first frame
+  std::vector<std::vector<std::vector<std::vector<std::int64_t>>>> cells_;
 };
 
 Grid contact_grid(const Frame& frame);

@@ -19,9 +19,9 @@ bool same(Vec2 a, Vec2 b) {
 }
 
 /// Loops are joined to one ring by a bridge to each hole; then ears are cut off it.
-class Triangulation {
+class EarClipping {
  public:
-  explicit Triangulation(const std::vector<std::vector<Vec2>>& loops) {
+  explicit EarClipping(const std::vector<std::vector<Vec2>>& loops) {
     for (const std::vector<Vec2>& loop : loops) {
       Ring ring(loop.size());
       std::iota(ring.begin(), ring.end(), static_cast<std::uint32_t>(points_.size()));
@@ -132,7 +132,7 @@ class Triangulation {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<std::vector<Vec2>>& loops) {
-  return Triangulation(loops).run();
+  return EarClipping(loops).run();
 }
 
 }  // namespace talus

@@ -31,7 +31,8 @@ std::optional<std::string> reason_in_sizes(const Library& library) {
                         {"ContactLoads", library.contact_loads_size, sizeof(ContactLoads)},
                         {"BodyPair", library.body_pair_size, sizeof(BodyPair)},
                         {"MaterialBatch", library.material_batch_size, sizeof(MaterialBatch)},
-                        {"Outline", library.outline_size, sizeof(Outline)}};
+                        {"BodyShape", library.body_shape_size, sizeof(BodyShape)},
+                        {"Boundaries", library.boundaries_size, sizeof(Boundaries)}};
   for (const Size& size : sizes) {
     if (size.found != size.wanted) {
       return fmt::format("found {} of {} bytes, wanted {}; {}", size.type, size.found, size.wanted,

@@ -1,5 +1,7 @@
 #include "simulation/integrator.hpp"
 
+#include "simulation/velocity_update.hpp"
+
 namespace talus {
 namespace {
 
@@ -21,10 +23,6 @@ void add(Matrix2& to, double factor, const Matrix2& what) {
   to.yx += factor * what.yx;
   to.yy += factor * what.yy;
 }
-
-struct Update {
-  double keep, gain;  ///< v₊ = keep v₋ + gain a, mass-proportional damping taken at mid-step
-};
 
 void accelerate_freely(const Body& body, const BodyForce& force, const StepConditions& conditions,
                        Update update, BodyMotion& motion) {
@@ -52,11 +50,7 @@ void impose_supports(const Body& body, double density, const Support& support,
                      BodyMotion& after, AccelerationWork& work) {
   const auto impose = [&](const std::optional<double>& wanted, double mass, double value,
                           double value_before) {
-    const double target = conditions.supports_driven ? *wanted : 0;
-    const double reaction = mass * (target - value) / update.gain;
-    work.external_work += reaction * value_before * conditions.dt_behind / 2;
-    work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
-    return target;
+    return talus::impose(wanted, mass, value, value_before, conditions, update, work);
   };
   if (support.x) after.velocity.x = impose(support.x, body.mass, after.velocity.x, before.velocity.x);
   if (support.y) after.velocity.y = impose(support.y, body.mass, after.velocity.y, before.velocity.y);
@@ -74,7 +68,7 @@ void impose_supports(const Body& body, double density, const Support& support,
 
 /// Velocity at t_n between those of the half steps behind and ahead; ½(v₋ + v₊) for equal steps.
 BodyMotion velocity_at_step(const BodyMotion& p, const BodyMotion& q, const StepConditions& conditions) {
-  const double share = conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);
+  const double share = share_of_after(conditions);
   const auto between = [&](double before, double after) { return before + share * (after - before); };
   BodyMotion result = q;
   result.velocity = {between(p.velocity.x, q.velocity.x), between(p.velocity.y, q.velocity.y)};
@@ -115,9 +109,9 @@ double kinetic_energy(const Body& body, double density, const BodyMotion& p, con
   return (translation + rest) / 2;
 }
 
-AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
+AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, MotionState& motion,
-                            std::vector<BodyMotion>& at_time) {
+                            VelocitiesAtStep& at_step) {
   AccelerationWork work;
   const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const double half_damping = conditions.damping * dt / 2;
@@ -125,20 +119,25 @@ AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::covered) {
+      accelerate_patches(model, mass, static_cast<std::uint32_t>(i), supports[i], conditions, update, motion,
+                         at_step, work);
+      continue;
+    }
     const double density = body.mass / body.moments.area;
     BodyMotion& now = motion.bodies[i];
     const BodyMotion before = now;
     accelerate_freely(body, motion.forces[i], conditions, update, now);
-    impose_supports(body, density, scene[i].support, conditions, update, before, now, work);
-    BodyMotion& at_step = at_time[i];
-    at_step = velocity_at_step(before, now, conditions);
-    work.kinetic += kinetic_at_step(body, density, conditions, before, at_step, now);
-    if (body.kinematics == Kinematics::rigid) at_step.rate = spin_rate(at_step);
+    impose_supports(body, density, supports[i], conditions, update, before, now, work);
+    BodyMotion& middle = at_step.bodies[i];
+    middle = velocity_at_step(before, now, conditions);
+    work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
+    if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
     work.external_work +=
         body.mass * conditions.dt_behind *
         (conditions.gravity.x * before.velocity.x + conditions.gravity.y * before.velocity.y);
     if (conditions.damping > 0) {
-      const double power = 2 * conditions.damping * kinetic_energy(body, density, at_step, at_step);
+      const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);
       work.damping_loss += power * conditions.dt_behind / 2;
       work.damping_loss_ahead += power * conditions.dt_ahead / 2;
     }
@@ -152,8 +151,13 @@ Matrix2 spin_rate(const BodyMotion& motion) {
 }
 
 void move(const Model& model, double dt, MotionState& motion) {
+  for (std::size_t p = 0; p < motion.patch_displacement.size(); ++p) {
+    motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
+    motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;
+  }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
+    const Kinematics kinematics = model.bodies[i].kinematics;
+    if (kinematics == Kinematics::fixed || kinematics == Kinematics::covered) continue;
     BodyMotion& body = motion.bodies[i];
     body.u.x += dt * body.velocity.x;
     body.u.y += dt * body.velocity.y;

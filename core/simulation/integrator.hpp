@@ -3,6 +3,7 @@
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
+#include "simulation/patch_mass.hpp"
 
 #include <span>
 
@@ -24,11 +25,15 @@ struct StepConditions {
   bool supports_driven;        ///< false: driven supports stand still (settling)
 };
 
-/// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. `at_time` receives the motion of each body
-/// with its velocity at t_n.
-AccelerationWork accelerate(const Model& model, std::span<const SceneBody> scene,
-                            const StepConditions& conditions, MotionState& motion,
-                            std::vector<BodyMotion>& at_time);
+/// Velocities at t_n.
+struct VelocitiesAtStep {
+  std::vector<BodyMotion> bodies;  ///< with the displacements at t_n
+  std::vector<Vec2> patches;       ///< [patch] m/s
+};
+
+/// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. The forces on patches are used up.
+AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
+                            const StepConditions& conditions, MotionState& motion, VelocitiesAtStep& at_step);
 
 /// Rate of H of a rigid body that spins.
 Matrix2 spin_rate(const BodyMotion& motion);

@@ -32,6 +32,13 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   l.throughput = std::max({l.throughput, initial_, stored + lost, std::abs(l.external_work)});
 }
 
+void LedgerKeeper::lose_kinetic() {
+  // Half of the work of the present forces lies ahead; it goes with the velocities.
+  ledger_.global_damping_loss += ledger_.kinetic;
+  ledger_.kinetic = 0;
+  damping_ahead_ = work_ahead_ = 0;
+}
+
 double LedgerKeeper::residual_share() const {
   return ledger_.throughput > 0 ? std::abs(ledger_.residual) / ledger_.throughput : 0;
 }

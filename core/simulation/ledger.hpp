@@ -15,6 +15,9 @@ class LedgerKeeper {
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work);
 
+  /// All velocities were just set to zero: their energy counts as taken by global damping.
+  void lose_kinetic();
+
   /// Starts anew: what is stored now becomes the capital of t = 0.
   void reset() { *this = LedgerKeeper{}; }
 

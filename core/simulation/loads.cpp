@@ -1,73 +1,204 @@
 #include "simulation/loads.hpp"
 
+#include "plugin/registry.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace talus {
 namespace {
 
-/// ū(t) along an axis, m.
-double prescribed_value(const PrescribedSurface& prescribed, int axis, double time) {
+/// ū along an axis, m.
+double target_of(const PrescribedSurface& prescribed, std::size_t axis, double time, Vec2 at) {
   const double ramp = prescribed.ramp > 0 ? std::clamp(time / prescribed.ramp, 0.0, 1.0) : 1.0;
-  return prescribed.displacement[axis].value_or(0) * ramp + prescribed.velocity[axis].value_or(0) * time;
+  double target = 0;
+  if (prescribed.displacement[axis]) target += (*prescribed.displacement[axis])(time, at) * ramp;
+  if (prescribed.velocity[axis]) target += prescribed.velocity[axis]->integral(time, at);
+  return target;
+}
+
+Vec2 between(Vec2 p, Vec2 q, double lever) {
+  return {p.x + lever * (q.x - p.x), p.y + lever * (q.y - p.y)};
+}
+
+double size_of(Vec2 p) {
+  return std::sqrt(p.x * p.x + p.y * p.y);
 }
 
 }  // namespace
 
-Loads::Loads(const Scene& scene, const Model& model) {
-  for (const PointLoad& load : scene.loads) {
-    const Vec2 centre = model.bodies[load.body].centre;
-    points_.push_back({load.body, {load.point.x - centre.x, load.point.y - centre.y}, load.force});
-  }
-  for (const PrescribedSurface& prescribed : scene.prescribed) {
-    const Body& body = model.bodies[prescribed.body];
-    for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
-      for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c) {
-        if (model.surface[c] != prescribed.surface_class) continue;
-        const std::uint32_t next = c + 1 == model.piece_start[piece + 1] ? model.piece_start[piece] : c + 1;
-        edges_.push_back({prescribed.body,
-                          {model.reference_x[c], model.reference_y[c]},
-                          {model.reference_x[next], model.reference_y[next]},
-                          &prescribed,
-                          {0, 0}});
-      }
+/// Calls visit with each Gauss point of the sides of a body's surface.
+template <class Visit>
+void Loads::visit_sides(const Model& model, std::uint32_t body, std::uint32_t surface_class,
+                        const Visit& visit) const {
+  const double outer = std::sqrt(0.15);
+  const std::array<double, gauss_points> lever{0.5 - outer, 0.5, 0.5 + outer};
+  const std::array<double, gauss_points> share{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const Body& b = model.bodies[body];
+  for (std::uint32_t s = b.side_begin; s < b.side_end; ++s) {
+    const BoundarySide& side = model.sides[s];
+    if (side.surface != surface_class) continue;
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+      const Vec2 at = between(side.start.reference, side.end.reference, lever[g]);
+      visit(SideShare{s, lever[g], share[g], {b.centre.x + at.x, b.centre.y + at.y}});
     }
   }
 }
 
-void Loads::apply(MotionState& motion, double time, double dt) {
-  for (const Point& point : points_) {
-    motion.forces[point.body].add(point.reference, point.force);
-    const Vec2 speed = velocity(motion.bodies[point.body], point.reference);
-    work_ += (point.force.x * speed.x + point.force.y * speed.y) * dt;
+Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& model)
+    : surface_loads_(settings.surface_loads), prescribed_(settings.prescribed) {
+  const bool on_sides = !surface_loads_.empty() || !prescribed_.empty() || !settings.absorbing.empty();
+  if (on_sides) sides_ = model.sides;
+  for (const PointLoad& load : settings.loads) {
+    const Vec2 centre = model.bodies[load.body].centre;
+    const Vec2 reference{load.point.x - centre.x, load.point.y - centre.y};
+    points_.push_back({model.point(load.body, reference), load.point, load.force, {}});
   }
-  stored_ = 0;
-  for (Edge& edge : edges_) apply_edge(edge, motion, time, dt);
+  for (std::uint32_t i = 0; i < surface_loads_.size(); ++i) {
+    visit_sides(model, surface_loads_[i].body, surface_loads_[i].surface_class, [&](const SideShare& at) {
+      surface_points_.push_back({at, i, {}});
+    });
+  }
+  for (std::uint32_t i = 0; i < prescribed_.size(); ++i) {
+    visit_sides(model, prescribed_[i].body, prescribed_[i].surface_class, [&](const SideShare& at) {
+      support_points_.push_back({at, i});
+    });
+  }
+  for (const AbsorbingSurface& absorbing : settings.absorbing) {
+    const SceneMaterial& material = scene.materials[scene.bodies[absorbing.body].material];
+    double tangent[9] = {};
+    if (material.model.component != nullptr)
+      make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
+    const double pressure = std::sqrt(material.density * tangent[0]);
+    const double shear = std::sqrt(material.density * tangent[8]);
+    visit_sides(model, absorbing.body, absorbing.surface_class, [&](const SideShare& at) {
+      absorbing_points_.push_back({at, pressure, shear, {}});
+    });
+  }
 }
 
-/// λ∫(u − ū) along an edge; u is affine along it, so the end loads l/6 (2e₁ + e₂) and l/6 (e₁ + 2e₂) are
-/// exact.
-void Loads::apply_edge(Edge& edge, MotionState& motion, double time, double dt) {
-  const double dx = edge.end.x - edge.start.x, dy = edge.end.y - edge.start.y;
-  const double length = std::sqrt(dx * dx + dy * dy), stiffness = edge.prescribed->stiffness;
-  const Vec2 at_start = displacement(motion.bodies[edge.body], edge.start);
-  const Vec2 at_end = displacement(motion.bodies[edge.body], edge.end);
-  double start_load[2] = {0, 0}, end_load[2] = {0, 0};
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!edge.prescribed->displacement[axis] && !edge.prescribed->velocity[axis]) continue;
-    const double wanted = prescribed_value(*edge.prescribed, axis, time);
-    const double first = (axis == 0 ? at_start.x : at_start.y) - wanted;
-    const double last = (axis == 0 ? at_end.x : at_end.y) - wanted;
-    start_load[axis] = -stiffness * length * (2 * first + last) / 6;
-    end_load[axis] = -stiffness * length * (first + 2 * last) / 6;
-    stored_ += stiffness * length * (first * first + first * last + last * last) / 6;
-    const double resultant = start_load[axis] + end_load[axis];
-    const double moved = wanted - prescribed_value(*edge.prescribed, axis, time - dt);
-    work_ += moved * (resultant + edge.last_force[axis]) / 2;
-    edge.last_force[axis] = resultant;
+void Loads::replace(Loads next) {
+  next_ = std::make_unique<Loads>(std::move(next));
+}
+
+void Loads::apply(MotionState& motion, double time, double dt) {
+  if (next_) {
+    // The old loads end at t: they worked over the first half of the last step, and their supports let go.
+    acting_ = false;
+    const std::unique_ptr<Loads> next = std::move(next_);
+    apply(motion, time, dt);
+    const double done = work_, let_go = stored_;
+    *this = std::move(*next);
+    apply(motion, time, dt);
+    work_ += done + stored_ - let_go;
+    return;
   }
-  motion.forces[edge.body].add(edge.start, {start_load[0], start_load[1]});
-  motion.forces[edge.body].add(edge.end, {end_load[0], end_load[1]});
+  stored_ = applied_ = 0;
+  apply_points(motion, time, dt);
+  apply_surface_loads(motion, time, dt);
+  apply_supports(motion, time);
+  apply_absorbing(motion, dt);
+}
+
+/// Trapezoidal rule, which is exact for the leapfrog: f_n works over half of the step behind and half of the
+/// step ahead.
+void Loads::work_through(Worker& worker, Vec2 force, Vec2 moved) {
+  if (!acting_) force = {};
+  work_ += ((force.x + worker.last_force.x) * moved.x + (force.y + worker.last_force.y) * moved.y) / 2;
+  worker.last_force = force;
+}
+
+void Loads::apply_points(MotionState& motion, double time, double dt) {
+  for (Point& point : points_) {
+    const Vec2 force{point.force[0](time, point.scene_point), point.force[1](time, point.scene_point)};
+    const Vec2 speed = motion.velocity(point.at);
+    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    if (!acting_) continue;
+    motion.add_force(point.at, force);
+    applied_ += size_of(force);
+  }
+}
+
+void Loads::apply_surface_loads(MotionState& motion, double time, double dt) {
+  for (SurfacePoint& point : surface_points_) {
+    const SurfaceLoad& load = surface_loads_[point.load];
+    const BoundarySide& side = sides_[point.at.side];
+    const Vec2 start = side.start.reference, end = side.end.reference;
+    const double length = point.at.share * size_of({end.x - start.x, end.y - start.y});
+    Vec2 force{length * load.traction[0](time, point.at.scene_point),
+               length * load.traction[1](time, point.at.scene_point)};
+    if (!load.pressure.zero()) {
+      // Towards the body on the present side: the side turned by 90° to the left.
+      const double pressure = point.at.share * load.pressure(time, point.at.scene_point);
+      const Vec2 from = motion.displacement(side.start), to = motion.displacement(side.end);
+      force.x -= pressure * (end.y + to.y - start.y - from.y);
+      force.y += pressure * (end.x + to.x - start.x - from.x);
+    }
+    const Vec2 speed = velocity_at(motion, point.at);
+    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    if (acting_) add_on_side(motion, point.at, force);
+  }
+}
+
+/// λ∫(u − ū). The work is that of the moving support; what the springs hold is stored.
+void Loads::apply_supports(MotionState& motion, double time) {
+  for (SupportPoint& point : support_points_) {
+    const PrescribedSurface& prescribed = prescribed_[point.prescribed];
+    const BoundarySide& side = sides_[point.at.side];
+    const double length = size_of(
+        {side.end.reference.x - side.start.reference.x, side.end.reference.y - side.start.reference.y});
+    const double stiffness = prescribed.stiffness * length * point.at.share;
+    const Vec2 moved = displacement_at(motion, point.at);
+    std::array<double, 2> force{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (!prescribed.displacement[axis] && !prescribed.velocity[axis]) continue;
+      const double target = target_of(prescribed, axis, time, point.at.scene_point);
+      const double error = (axis == 0 ? moved.x : moved.y) - target;
+      stored_ += stiffness * error * error / 2;
+      force[axis] = acting_ ? -stiffness * error : 0;
+      if (!point.fresh)
+        work_ += (target - point.last_target[axis]) * (force[axis] + point.last_force[axis]) / 2;
+      point.last_force[axis] = force[axis];
+      point.last_target[axis] = target;
+    }
+    point.fresh = false;
+    if (acting_) add_on_side(motion, point.at, {force[0], force[1]});
+  }
+}
+
+void Loads::apply_absorbing(MotionState& motion, double dt) {
+  for (AbsorbingPoint& point : absorbing_points_) {
+    const BoundarySide& side = sides_[point.at.side];
+    const Vec2 from = motion.displacement(side.start), to = motion.displacement(side.end);
+    const Vec2 span{side.end.reference.x + to.x - side.start.reference.x - from.x,
+                    side.end.reference.y + to.y - side.start.reference.y - from.y};
+    const double length = size_of(span);
+    const Vec2 tangent{span.x / length, span.y / length}, speed = velocity_at(motion, point.at);
+    const double outward = speed.x * tangent.y - speed.y * tangent.x;
+    const double along = speed.x * tangent.x + speed.y * tangent.y;
+    const double normal = -point.pressure_impedance * outward * length * point.at.share;
+    const double shear = -point.shear_impedance * along * length * point.at.share;
+    const Vec2 force{normal * tangent.y + shear * tangent.x, -normal * tangent.x + shear * tangent.y};
+    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    if (acting_) add_on_side(motion, point.at, force);
+  }
+}
+
+/// By the lever rule: exact, for displacement is affine along the side.
+void Loads::add_on_side(MotionState& motion, const SideShare& at, Vec2 force) {
+  const BoundarySide& side = sides_[at.side];
+  motion.add_force(side.start, {(1 - at.lever) * force.x, (1 - at.lever) * force.y});
+  motion.add_force(side.end, {at.lever * force.x, at.lever * force.y});
+  applied_ += size_of(force);
+}
+
+Vec2 Loads::displacement_at(const MotionState& motion, const SideShare& at) const {
+  return between(motion.displacement(sides_[at.side].start), motion.displacement(sides_[at.side].end),
+                 at.lever);
+}
+
+Vec2 Loads::velocity_at(const MotionState& motion, const SideShare& at) const {
+  return between(motion.velocity(sides_[at.side].start), motion.velocity(sides_[at.side].end), at.lever);
 }
 
 }  // namespace talus

@@ -4,39 +4,88 @@
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
 
+#include <array>
+#include <memory>
+#include <vector>
+
 namespace talus {
 
-/// Point loads and penalty supports of a scene: f_ext and f_λ (Eqs. 18–20). Gravity enters as an
-/// acceleration.
+/// Point loads, loads on surfaces, penalty supports and absorbing boundaries of a scene: f_ext and f_λ
+/// (Eqs. 18–20). Gravity enters as an acceleration.
 class Loads {
  public:
-  Loads(const Scene& scene, const Model& model);
+  Loads(const Scene& scene, const StageSettings& settings, const Model& model);
 
-  /// Adds the loads at time t. `previous` and `velocity` of the bodies serve the work they have done since t
-  /// − dt.
+  /// From now on other loads act; what the present ones still did and held is booked at the next apply().
+  void replace(Loads next);
+
+  /// Adds the loads at time t. Velocities serve the work they have done since t − dt.
   void apply(MotionState& motion, double time, double dt);
 
-  double work() const { return work_; }      ///< J/m since the last reset, by point loads and moving supports
-  double stored() const { return stored_; }  ///< J/m in the penalty supports
+  double work() const { return work_; }        ///< J/m since the last reset, by loads and moving supports
+  double stored() const { return stored_; }    ///< J/m in the penalty supports
+  double applied() const { return applied_; }  ///< N/m, sum of the magnitudes at the last apply()
   void reset_work() { work_ = 0; }
 
  private:
+  /// A force at a point that works on the body's motion.
+  struct Worker {
+    Vec2 last_force;  ///< N/m at the last step
+  };
   struct Point {
-    std::uint32_t body;
-    Vec2 reference, force;
+    MaterialPoint at;
+    Vec2 scene_point;  ///< m, where functions are read
+    VectorFunction force;
+    Worker worker;
   };
-  struct Edge {
-    std::uint32_t body;
-    Vec2 start, end;
-    const PrescribedSurface* prescribed;
-    double last_force[2];  ///< N/m, resultant on the body at the last step, for the work of a moving support
+  static constexpr std::size_t gauss_points = 3;  ///< per side: exact for tractions up to degree 4 along it
+  /// A part of a side around a Gauss point.
+  struct SideShare {
+    std::uint32_t side;
+    double lever;  ///< 0 at the start of the side, 1 at its end
+    double share;  ///< of the length of the side
+    Vec2 scene_point;
+  };
+  struct SurfacePoint {
+    SideShare at;
+    std::uint32_t load;  ///< index into surface_loads_
+    Worker worker;
+  };
+  struct SupportPoint {
+    SideShare at;
+    std::uint32_t prescribed;             ///< index into prescribed_
+    std::array<double, 2> last_force{};   ///< N/m on the body
+    std::array<double, 2> last_target{};  ///< m, ū
+    bool fresh = true;
+  };
+  struct AbsorbingPoint {
+    SideShare at;
+    double pressure_impedance, shear_impedance;  ///< ρ c_p and ρ c_s, Pa s/m
+    Worker worker;
   };
 
-  void apply_edge(Edge& edge, MotionState& motion, double time, double dt);
+  template <class Visit>
+  void visit_sides(const Model& model, std::uint32_t body, std::uint32_t surface_class,
+                   const Visit& visit) const;
+  void work_through(Worker& worker, Vec2 force, Vec2 moved);
+  void apply_points(MotionState& motion, double time, double dt);
+  void apply_surface_loads(MotionState& motion, double time, double dt);
+  void apply_supports(MotionState& motion, double time);
+  void apply_absorbing(MotionState& motion, double dt);
+  void add_on_side(MotionState& motion, const SideShare& at, Vec2 force);
+  Vec2 displacement_at(const MotionState& motion, const SideShare& at) const;
+  Vec2 velocity_at(const MotionState& motion, const SideShare& at) const;
 
+  std::vector<SurfaceLoad> surface_loads_;
+  std::vector<PrescribedSurface> prescribed_;
+  std::vector<BoundarySide> sides_;
   std::vector<Point> points_;
-  std::vector<Edge> edges_;
-  double work_ = 0, stored_ = 0;
+  std::vector<SurfacePoint> surface_points_;
+  std::vector<SupportPoint> support_points_;
+  std::vector<AbsorbingPoint> absorbing_points_;
+  std::unique_ptr<Loads> next_;  ///< takes over at the next apply()
+  bool acting_ = true;           ///< false at the last call of loads that end
+  double work_ = 0, stored_ = 0, applied_ = 0;
 };
 
 }  // namespace talus

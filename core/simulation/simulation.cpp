@@ -19,13 +19,19 @@ const Scene& Simulation::scene() const {
 }
 
 void Simulation::take_geometry(const Geometry& geometry) {
+  State& s = *state_;
   const double* from = geometry.unknowns.data();
-  for (std::size_t i = 0; i < state_->motion.bodies.size(); ++i, from += 6) {
-    BodyMotion& body = state_->motion.bodies[i];
+  for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
+    BodyMotion& body = s.motion.bodies[i];
     body.u = {from[0], from[1]};
     body.h = {from[2], from[3], from[4], from[5]};
-    if (state_->model.bodies[i].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
+    if (s.model.bodies[i].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
   }
+  for (Vec2& displacement : s.motion.patch_displacement) {
+    displacement = {from[0], from[1]};
+    from += 2;
+  }
+  if (geometry.memory.size() == s.deformation.memory().size()) s.deformation.set_memory(geometry.memory);
 }
 
 Geometry Simulation::geometry() const {
@@ -35,6 +41,9 @@ Geometry Simulation::geometry() const {
       geometry.unknowns.push_back(value);
     }
   }
+  for (const Vec2 displacement : state_->motion.patch_displacement)
+    geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
+  geometry.memory = state_->deformation.memory();
   return geometry;
 }
 
@@ -43,12 +52,12 @@ void Simulation::settle(const std::atomic<bool>* interrupted) {
   if (!s.scene.settle) return;
   s.settling = true;
   s.begin(s.scene.settle->duration);
-  while (s.time < s.scene.settle->duration) {
+  while (s.time < s.scene.settle->duration && !s.settled()) {
     s.step(s.scene.settle->duration);
     if (interrupted != nullptr && *interrupted) break;
   }
   s.settling = false;
-  for (BodyMotion& body : s.motion.bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
+  s.motion.stop();
   s.time = 0;
   s.ledger.reset();
 }
@@ -64,6 +73,7 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
     s.started = true;
     s.set_initial_velocities();
     s.start = s.motion.bodies;
+    s.start_displacement = s.motion.patch_displacement;
     for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = s.motion.bodies[i].h;
     s.begin(output_time(1));
     s.warn_of_large_step();
@@ -126,10 +136,16 @@ std::size_t Simulation::block_count() const {
 
 std::string Simulation::state_hash() const {
   std::vector<double> state;
-  for (const BodyMotion& body : state_->motion.bodies) {
+  for (std::size_t i = 0; i < state_->motion.bodies.size(); ++i) {
+    if (state_->model.covered(static_cast<std::uint32_t>(i))) continue;
+    const BodyMotion& body = state_->motion.bodies[i];
     state.insert(state.end(),
                  {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy, body.velocity.x,
                   body.velocity.y, body.rate.xx, body.rate.xy, body.rate.yx, body.rate.yy, body.spin});
+  }
+  for (std::size_t p = 0; p < state_->motion.patch_displacement.size(); ++p) {
+    const Vec2 d = state_->motion.patch_displacement[p], v = state_->motion.patch_velocity[p];
+    state.insert(state.end(), {d.x, d.y, v.x, v.y});
   }
   const std::uint32_t doubles =
       state_->contacts.law() != nullptr ? state_->contacts.law()->doubles_per_contact() : 0;
@@ -144,39 +160,106 @@ std::string Simulation::state_hash() const {
 }
 
 Motion Simulation::body_motion(std::size_t body) const {
-  return point_motion(body, state_->model.bodies[body].centre);
-}
-
-Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   const State& s = *state_;
-  const Vec2 centre = s.model.bodies[body].centre;
-  const Vec2 reference{point_at_start.x - centre.x, point_at_start.y - centre.y};
-  const Vec2 now = displacement(s.motion.bodies[body], reference);
-  const Vec2 start = displacement(s.start[body], reference);
-  const std::array<double, 3> stress = s.deformation.cauchy(body);
-  return {{point_at_start.x + now.x, point_at_start.y + now.y},
+  const auto index = static_cast<std::uint32_t>(body);
+  const Body& b = s.model.bodies[body];
+  if (!s.model.covered(index)) return point_motion(body, b.centre);
+  Vec2 now, start, speed;
+  for (std::uint32_t p = b.patch_begin; p < b.patch_end; ++p) {
+    const double share = s.model.patch_mass[p] / b.mass;
+    const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
+    add(now, s.motion.patch_displacement[p]);
+    add(start, s.start_displacement[p]);
+    add(speed, s.at_time.patches[p]);
+  }
+  const std::array<double, 3> stress = s.deformation.cauchy(s.model, body);
+  return {{b.centre.x + now.x, b.centre.y + now.y},
           {now.x - start.x, now.y - start.y},
-          velocity(s.at_time[body], reference),
+          speed,
           s.rotation[body],
           stress[0],
           stress[1],
           stress[2]};
 }
 
-std::vector<std::vector<Vec2>> Simulation::outline(std::size_t body) const {
+Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   const State& s = *state_;
+  const auto index = static_cast<std::uint32_t>(body);
   const Vec2 centre = s.model.bodies[body].centre;
-  std::vector<std::vector<Vec2>> loops;
-  const auto append = [&](const Loop& loop) {
-    std::vector<Vec2>& moved = loops.emplace_back();
-    for (const Vec2& vertex : loop.vertices) {
-      const Vec2 u = displacement(s.motion.bodies[body], {vertex.x - centre.x, vertex.y - centre.y});
-      moved.push_back({vertex.x + u.x, vertex.y + u.y});
+  const Vec2 reference{point_at_start.x - centre.x, point_at_start.y - centre.y};
+  Vec2 now, start, speed;
+  std::array<double, 3> stress{};
+  if (s.model.covered(index)) {
+    const std::uint32_t element = s.model.element_at(index, reference);
+    const Carrier carrier = s.model.carrier(s.model.elements[element], reference);
+    now = carried(carrier, s.motion.patch_displacement);
+    start = carried(carrier, s.start_displacement);
+    speed = carried(carrier, s.at_time.patches);
+    stress = s.deformation.cauchy_of_element(element);
+  } else {
+    now = displacement(s.motion.bodies[body], reference);
+    start = displacement(s.start[body], reference);
+    speed = velocity(s.at_time.bodies[body], reference);
+    stress = s.deformation.cauchy(s.model, body);
+  }
+  return {{point_at_start.x + now.x, point_at_start.y + now.y},
+          {now.x - start.x, now.y - start.y},
+          speed,
+          s.rotation[body],
+          stress[0],
+          stress[1],
+          stress[2]};
+}
+
+std::vector<BodyPart> Simulation::parts(std::size_t body) const {
+  const State& s = *state_;
+  const auto index = static_cast<std::uint32_t>(body);
+  const Body& b = s.model.bodies[body];
+  std::vector<BodyPart> parts;
+  if (!s.model.covered(index)) {
+    BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, body)});
+    const auto add_loop = [&](const Loop& loop) {
+      std::vector<PartPoint>& points = whole.loops.emplace_back();
+      for (const Vec2 vertex : loop.vertices) {
+        const Motion point = point_motion(body, vertex);
+        points.push_back({point.position, point.displacement, point.velocity});
+      }
+    };
+    add_loop(s.scene.bodies[body].outer);
+    for (const Loop& hole : s.scene.bodies[body].holes) add_loop(hole);
+    return parts;
+  }
+  for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
+    const std::uint32_t element = s.model.body_element[i];
+    BodyPart& part = parts.emplace_back(BodyPart{{}, s.deformation.cauchy_of_element(element)});
+    for (const Ring& ring : s.model.element_region[element]) {
+      std::vector<PartPoint>& points = part.loops.emplace_back();
+      for (const Vec2 at : ring) {
+        const Carrier carrier = s.model.carrier(s.model.elements[element], at);
+        const Vec2 now = carried(carrier, s.motion.patch_displacement),
+                   start = carried(carrier, s.start_displacement);
+        points.push_back({{b.centre.x + at.x + now.x, b.centre.y + at.y + now.y},
+                          {now.x - start.x, now.y - start.y},
+                          carried(carrier, s.at_time.patches)});
+      }
     }
-  };
-  append(s.scene.bodies[body].outer);
-  for (const Loop& hole : s.scene.bodies[body].holes) append(hole);
-  return loops;
+  }
+  return parts;
+}
+
+std::vector<SliverEffect> Simulation::slivers() const {
+  return sliver_effects(state_->scene, state_->model);
+}
+
+std::size_t Simulation::patch_count() const {
+  const State& s = *state_;
+  std::size_t count = s.model.patch_star.size();
+  for (const Body& body : s.model.bodies) count += body.kinematics == Kinematics::affine ? 3 : 0;
+  return count;
+}
+
+std::size_t Simulation::element_count() const {
+  return state_->model.elements.size();
 }
 
 std::vector<Contact> Simulation::contacts() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "simulation/time_step.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -42,6 +43,17 @@ struct Motion {
   double stress_xx, stress_yy, stress_xy;  ///< Pa, Cauchy, area mean of the body; 0 for rigid bodies
 };
 
+/// A point of a body at t_n: m without the scene's origin, m since t = 0, m/s.
+struct PartPoint {
+  Vec2 position, displacement, velocity;
+};
+
+/// A part of a body that strains uniformly: a manifold element, or the whole body.
+struct BodyPart {
+  std::vector<std::vector<PartPoint>> loops;  ///< outer ones counter-clockwise, holes clockwise
+  std::array<double, 3> stress;               ///< Pa, Cauchy xx, yy, xy
+};
+
 /// A contact at t_n, positions without the scene's origin.
 struct Contact {
   std::uint32_t body_a, body_b;
@@ -65,6 +77,7 @@ struct RunSummary {
 /// Displacements and the like of every body, to start another run from the same settled geometry.
 struct Geometry {
   std::vector<double> unknowns;
+  std::vector<double> memory;  ///< of the materials; used where both have the same
 };
 
 /// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.
@@ -98,7 +111,10 @@ class Simulation {
   std::size_t block_count() const;  ///< bodies with unknowns
   Motion body_motion(std::size_t body) const;
   Motion point_motion(std::size_t body, Vec2 point_at_start) const;
-  std::vector<std::vector<Vec2>> outline(std::size_t body) const;  ///< loops of the body as deformed
+  std::vector<BodyPart> parts(std::size_t body) const;
+  std::size_t patch_count() const;
+  std::size_t element_count() const;
+  std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any
   std::vector<Contact> contacts() const;
   const EnergyLedger& ledger() const;
   RunSummary summary() const;

@@ -24,14 +24,18 @@ constexpr double initial_overlap = 1e-6;
 Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
     : scene(scene_in),
       settings(settings_in),
+      stage(settings_of(scene)),
       model(build_model(scene)),
       motion(model),
+      mass(model),
       contacts(scene, model, settings.threads, settings.neighbour_skin),
       deformation(scene, model),
-      loads(scene, model),
-      critical(critical_step(scene, model, contacts)),
-      at_time(model.bodies.size()),
+      loads(scene, stage, model),
+      relaxation(model),
+      critical(critical_step(scene, stage, model, contacts)),
+      at_time{std::vector<BodyMotion>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
       start(model.bodies.size()),
+      start_displacement(model.patch_star.size()),
       rotation(model.bodies.size(), 0.0),
       last_turn(model.bodies.size()) {
   summary.critical_dt = critical.dt;
@@ -45,6 +49,7 @@ void Simulation::State::step(double next_end) {
   ++plan.done;
   ++(settling ? summary.settle_steps : summary.steps);
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
+  begin_due_stages();
   if (plan.done == plan.steps) {
     make_plan(next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
@@ -71,18 +76,53 @@ void Simulation::State::begin(double end) {
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
   for (BodyForce& force : motion.forces) force = {};
+  for (Vec2& force : motion.patch_force) force = {};
   motion.move_boundary(model);  // Eq. 11
   speeds = motion.speeds();
-  contacts.find_pairs(model, motion, dt_behind * speeds.largest);                               // Table 1, 1
-  contact_totals = contacts.evaluate(model, motion, {dt_behind, settling, fresh || settling});  // Eqs. 28–48
-  strain_energy = deformation.apply(model, motion, dt_behind);                                  // Eq. 18
-  loads.apply(motion, settling ? 0 : time, dt_behind);  // Eqs. 19–20
-  const double damping = settling ? std::max(scene.settle->damping, scene.damping) : scene.damping;
+  const bool hold_stick = settling && scene.settle->hold_stick;
+  contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
+  contact_totals =
+      contacts.evaluate(model, motion, {dt_behind, hold_stick, fresh || settling});  // Eqs. 28–48
+  strain_energy = deformation.apply(model, motion, dt_behind);                       // Eq. 18
+  loads.apply(motion, settling ? 0 : time, dt_behind);                               // Eqs. 19–20
+  const Vec2 pull = gravity();
+  if (settling && scene.settle->until) {
+    unbalanced_share =
+        Relaxation::unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
+  }
+  const Damping& how = settling ? scene.settle->damping : stage.damping;
+  const double damping = relaxation.damping(how, model, motion, dt_behind);
   const AccelerationWork work =
-      accelerate(model, scene.bodies, {scene.gravity, damping, dt_behind, plan.dt, !settling}, motion,
+      accelerate(model, mass, stage.supports, {pull, damping, dt_behind, plan.dt, !settling}, motion,
                  at_time);  // Eqs. 23–24
   ledger.book(contact_totals, strain_energy, loads, work);
+  if (relaxation.past_peak(how, work.kinetic)) {
+    motion.stop();
+    ledger.lose_kinetic();
+  }
   fresh = false;
+}
+
+/// Of the frame that moves with the ground.
+Vec2 Simulation::State::gravity() const {
+  const double now = settling ? 0 : time;
+  return {stage.gravity.x - stage.base_acceleration[0](now, {}),
+          stage.gravity.y - stage.base_acceleration[1](now, {})};
+}
+
+bool Simulation::State::settled() const {
+  return scene.settle->until && summary.settle_steps > 0 && unbalanced_share < *scene.settle->until;
+}
+
+void Simulation::State::begin_due_stages() {
+  if (settling) return;
+  while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
+    stage = scene.stages[stages_begun++].settings;
+    contacts.set_interfaces(stage.interface_values);
+    loads.replace(Loads(scene, stage, model));
+    critical = critical_step(scene, stage, model, contacts);
+    summary.critical_dt = std::min(summary.critical_dt, critical.dt);
+  }
 }
 
 double Simulation::State::nominal_dt() const {
@@ -110,6 +150,7 @@ void Simulation::State::make_plan(double end) {
   } else {
     summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : critical.limiter;
   }
+  if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
   const double span = end - time;
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - rounding))));
   plan = {time, end, span / static_cast<double>(steps), steps, 0};
@@ -118,7 +159,7 @@ void Simulation::State::make_plan(double end) {
 
 std::string Simulation::State::place(std::uint32_t body) const {
   const Vec2 centre = model.bodies[body].centre;
-  const Vec2 u = motion.bodies[body].u;
+  const Vec2 u = motion.displacement(model.point(body, {}));
   return fmt::format("'{}' at ({:.6g}, {:.6g}) m", scene.bodies[body].name, scene.origin.x + centre.x + u.x,
                      scene.origin.y + centre.y + u.y);
 }
@@ -148,8 +189,9 @@ void Simulation::State::check_step() const {
   }
   const ContactTotals& totals = contact_totals;
   if (totals.penetration == 0) return;
-  const double width = std::min(model.bodies[totals.deepest_a].width, model.bodies[totals.deepest_b].width);
-  if (!(totals.penetration <= scene.limits.penetration * width)) {
+  const Body &a = model.bodies[totals.deepest_a], &b = model.bodies[totals.deepest_b];
+  const double width = std::min(a.width, b.width), visible = 0.9 * std::min(a.contact_depth, b.contact_depth);
+  if (!(totals.penetration <= std::min(scene.limits.penetration * width, visible))) {
     throw NumericalTrouble(
         fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.0f} % "
                     "of the smaller width "
@@ -209,6 +251,7 @@ void Simulation::State::warn_of_initial_overlap() {
 void Simulation::State::bring_rotation_up_to_date() {
   turned = 0;
   for (std::size_t i = 0; i < rotation.size(); ++i) {
+    if (model.covered(static_cast<std::uint32_t>(i))) motion.average(model, static_cast<std::uint32_t>(i));
     const Matrix2 &now = motion.bodies[i].h, &last = last_turn[i];
     // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.
     const double c = 2 + now.xx + now.yy, s = now.yx - now.xy;
@@ -220,12 +263,18 @@ void Simulation::State::bring_rotation_up_to_date() {
 
 void Simulation::State::set_initial_velocities() {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (model.covered(static_cast<std::uint32_t>(i))) motion.average(model, static_cast<std::uint32_t>(i));
     BodyMotion& body = motion.bodies[i];
     const SceneBody& given = scene.bodies[i];
     body.velocity = {given.support.x.value_or(given.velocity.x), given.support.y.value_or(given.velocity.y)};
     body.spin = given.support.rotation.value_or(given.angular_velocity);
     if (!model.moves(static_cast<std::uint32_t>(i))) body.velocity = {}, body.spin = 0;
     body.rate = spin_rate(body);
+    for (std::uint32_t p = model.bodies[i].patch_begin; p < model.bodies[i].patch_end; ++p) {
+      const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
+                    model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
+      motion.patch_velocity[p] = {body.velocity.x - body.spin * at.y, body.velocity.y + body.spin * at.x};
+    }
     if (model.bodies[i].kinematics != Kinematics::rigid) body.spin = 0;
   }
 }

@@ -7,6 +7,8 @@
 #include "simulation/integrator.hpp"
 #include "simulation/ledger.hpp"
 #include "simulation/loads.hpp"
+#include "simulation/patch_mass.hpp"
+#include "simulation/relaxation.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/time_step.hpp"
 
@@ -18,11 +20,14 @@ struct Simulation::State {
 
   Scene scene;
   RunSettings settings;
+  StageSettings stage;  ///< what holds now
   Model model;
   MotionState motion;
+  PatchMass mass;
   ContactStage contacts;
   Deformation deformation;
   Loads loads;
+  Relaxation relaxation;
   CriticalStep critical;
 
   double time = 0;       ///< s, t_n
@@ -39,11 +44,14 @@ struct Simulation::State {
   };
   Plan plan;
 
-  std::vector<BodyMotion> at_time;  ///< with the velocities at t_n
-  std::vector<BodyMotion> start;    ///< motion at t = 0, which displacements count from
-  std::vector<double> rotation;     ///< rad since t = 0, followed through full turns
-  std::vector<Matrix2> last_turn;   ///< where `rotation` was brought up to date
-  double turned = 0;                ///< rad, bound of what any body has turned since then
+  VelocitiesAtStep at_time;
+  std::vector<BodyMotion> start;         ///< motion at t = 0, which displacements count from
+  std::vector<Vec2> start_displacement;  ///< [patch] likewise
+  std::size_t stages_begun = 0;
+  double unbalanced_share = 0;     ///< unbalanced over applied force, while settling
+  std::vector<double> rotation;    ///< rad since t = 0, followed through full turns
+  std::vector<Matrix2> last_turn;  ///< where `rotation` was brought up to date
+  double turned = 0;               ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;
   ContactTotals contact_totals;
@@ -59,6 +67,9 @@ struct Simulation::State {
   double allowed_dt() const;
 
   void forces();
+  void begin_due_stages();
+  Vec2 gravity() const;
+  bool settled() const;
   void remember_deepest();
   void check_step() const;
   void check_balance();

@@ -14,19 +14,22 @@ class Block final : public CoverBuilder {
   explicit Block(const double* /*values*/) {}
 
   /// The triangle is circumscribed to the circle about the centroid that reaches the farthest vertex.
-  void build(const Outline& outline, const AreaMoments& body, CoverSink& sink) const noexcept override {
+  void build(const BodyShape& body, CoverSink& sink) const noexcept override {
+    const Region& outline = body.outline;
+    if (body.discontinuities.line_count > 0) {
+      sink.refuse("one element cannot be cut by discontinuities; take the cover \"hexagonal\"");
+      return;
+    }
     double squared_radius = 0;
-    for (std::uint32_t i = 0; i < outline.loop_start[1]; ++i) {
+    for (std::uint32_t i = 0; i < outline.ring_start[1]; ++i) {
       squared_radius = std::fmax(squared_radius, outline.x[i] * outline.x[i] + outline.y[i] * outline.y[i]);
     }
     const double inradius = std::sqrt(squared_radius);
     const double half_side = std::sqrt(3.0) * inradius;
     const std::uint32_t patches[3] = {sink.add_patch(-half_side, -inradius),
                                       sink.add_patch(half_side, -inradius), sink.add_patch(0, 2 * inradius)};
-    sink.add_element(patches, body);
+    sink.add_element(patches, outline);
   }
-
-  std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
 };
 
 constexpr Component components[] = {cover_builder<Block>(

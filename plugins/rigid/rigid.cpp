@@ -10,12 +10,13 @@ class Rigid final : public CoverBuilder {
  public:
   explicit Rigid(const double* /*values*/) {}
 
-  void build(const Outline& /*outline*/, const AreaMoments& /*body*/,
-             CoverSink& sink) const noexcept override {
+  void build(const BodyShape& body, CoverSink& sink) const noexcept override {
+    if (body.discontinuities.line_count > 0) {
+      sink.refuse("a rigid body cannot be cut by discontinuities; take the cover \"hexagonal\"");
+      return;
+    }
     sink.make_rigid();
   }
-
-  std::uint32_t element_at(double /*x*/, double /*y*/) const noexcept override { return 0; }
 };
 
 constexpr Component components[] = {cover_builder<Rigid>(

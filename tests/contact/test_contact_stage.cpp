@@ -12,13 +12,13 @@ using namespace talus;
 namespace {
 
 /// A stage with the model and motion it works on.
-struct Stage {
+struct HeldStage {
   Scene scene;
   Model model;
   MotionState motion;
   ContactStage contacts;
 
-  Stage(const WorkingScene& text, Registry& registry)
+  HeldStage(const WorkingScene& text, Registry& registry)
       : scene(text.read(registry)),
         model(build_model(scene)),
         motion(model),
@@ -74,7 +74,7 @@ TEST_CASE("room is made for as many contacts as a law finds, and none forgets it
   text.law = "tally";
   text.interface = R"("normal_stiffness": 1)";
   text.bodies = box("a", 0, 0, 1, 1) + ", " + box("b", 1, 0, 2, 1) + ", " + box("c", 2, 0, 3, 1);
-  Stage stage(text, tally::registry());
+  HeldStage stage(text, tally::registry());
   tally::contacts = 1;
   stage.evaluate();
   stage.evaluate();
@@ -101,7 +101,7 @@ TEST_CASE("a pair keeps its history when other pairs come and go", "[contact][st
   text.interface = R"("normal_stiffness": 1)";
   text.bodies = box("far", -50, 0, -49, 1) + ", " + box("left", 0, 0, 1, 1) + ", " +
                 box("right", 1, 0, 2, 1) + ", " + box("other", 60, 0, 61, 1);
-  Stage stage(text, tally::registry());
+  HeldStage stage(text, tally::registry());
   tally::contacts = 2;
   for (int i = 0; i < 3; ++i) stage.evaluate();
   REQUIRE(stage.contacts.pairs().size() == 1);
@@ -129,7 +129,7 @@ TEST_CASE("a pair keeps its history when other pairs come and go", "[contact][st
 }
 
 TEST_CASE("a comb stands on as many overlaps as teeth reach the base", "[contact][stage]") {
-  Stage stage(combed(), shipped_registry());
+  HeldStage stage(combed(), shipped_registry());
   const double stiffness = 1e9, stand_off = 0.5, flat = 0.5 / 0.499;
 
   // 0.4 mm into the base: three teeth; 3 mm: all seven. A tip of depth d covers d² 0.5 m/(height of the
@@ -152,7 +152,7 @@ TEST_CASE("a comb stands on as many overlaps as teeth reach the base", "[contact
 }
 
 TEST_CASE("teeth that join later leave the springs of the first ones as they are", "[contact][stage]") {
-  Stage stage(combed(), shipped_registry());
+  HeldStage stage(combed(), shipped_registry());
   stage.motion.bodies[1].u.y = -0.5 - 0.4e-3;
   stage.evaluate();
   stage.motion.bodies[1].velocity = {1e-3, 0};
@@ -173,7 +173,7 @@ TEST_CASE("a fixed body is master, and between moving bodies both are or the pri
   WorkingScene text;
   text.bodies = box("a", 0, 0, 1, 1) + ", " + box("base", 0, -1, 9, 0, R"("fixed": true)") + ", " +
                 box("b", 1, 0, 3, 1) + ", " + box("c", 3, 0, 4, 1, R"("priority": 2)");
-  Stage both(text, shipped_registry());
+  HeldStage both(text, shipped_registry());
   both.evaluate();
   CHECK(both.pair(0, 1).master_share == 0);  // the base is the second of its pair
   CHECK(both.pair(1, 2).master_share == 1);

@@ -24,6 +24,7 @@ struct HeldBody {
 struct BoundaryArrays {
   std::vector<double> x, y, vx, vy, tangent_x, tangent_y, length;
   std::vector<std::uint32_t> surface, cut, piece_start{0}, body_piece{0}, corner_body;
+  std::vector<std::uint8_t> is_strip;
   std::vector<Vec2> reference;
 
   explicit BoundaryArrays(const std::vector<HeldBody>& bodies) {
@@ -41,6 +42,7 @@ struct BoundaryArrays {
       }
       measure_sides(piece_start.back());
       piece_start.push_back(static_cast<std::uint32_t>(x.size()));
+      is_strip.push_back(0);
     }
     body_piece.push_back(static_cast<std::uint32_t>(piece_start.size() - 1));
   }
@@ -60,6 +62,7 @@ struct BoundaryArrays {
     all.x = x.data(), all.y = y.data(), all.vx = vx.data(), all.vy = vy.data();
     all.tangent_x = tangent_x.data(), all.tangent_y = tangent_y.data(), all.length = length.data();
     all.surface = surface.data(), all.cut = cut.data(), all.piece_start = piece_start.data();
+    all.is_strip = is_strip.data();
     return all;
   }
 };

@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-FramePoint at(double x, double y) {
+PartPoint at(double x, double y) {
   return {{x, y}, {x / 8, y / 8}, {2 * x, -y}};
 }
 
@@ -22,14 +22,12 @@ Frame example_frame(double time) {
   Frame frame;
   frame.time = time;
   frame.origin = {500000, 0};
-  frame.bodies.push_back({{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}}, 2, 3.5, 1, 2, 3});
+  frame.bodies.push_back({{{{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}}, {1, 2, 3}}}, 2, 3.5});
   frame.bodies.push_back(
-      {{{at(2, 0), at(4, 0), at(4, 2), at(2, 2)}, {at(2.5, 0.5), at(2.5, 1.5), at(3.5, 1.5), at(3.5, 0.5)}},
+      {{{{{at(2, 0), at(4, 0), at(4, 2), at(2, 2)}, {at(2.5, 0.5), at(2.5, 1.5), at(3.5, 1.5), at(3.5, 0.5)}},
+         {4, 5, 6}}},
        1,
-       0.5,
-       4,
-       5,
-       6});
+       0.5});
   frame.contacts.push_back({0, 1, {1, 0.5}, {7, 8}, {-9, 10}, 1e-3, true});
   return frame;
 }
@@ -123,7 +121,7 @@ TEST_CASE("the collection lists every time from the first frame on", "[output][p
 TEST_CASE("a frame knows whether its positions are numbers", "[output][vtu]") {
   Frame frame = example_frame(0);
   CHECK(frame.finite());
-  frame.bodies[1].loops[1][2].position.y = std::numeric_limits<double>::quiet_NaN();
+  frame.bodies[1].parts[0].loops[1][2].position.y = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(frame.finite());
 }
 

@@ -34,7 +34,8 @@ TEST_CASE("The size of every structure of the door is checked", "[plugin]") {
   CHECK_THAT(spoilt(&Library::contact_loads_size), Contains("found ContactLoads of"));
   CHECK_THAT(spoilt(&Library::body_pair_size), Contains("found BodyPair of"));
   CHECK_THAT(spoilt(&Library::material_batch_size), Contains("found MaterialBatch of"));
-  CHECK_THAT(spoilt(&Library::outline_size), Contains("found Outline of"));
+  CHECK_THAT(spoilt(&Library::body_shape_size), Contains("found BodyShape of"));
+  CHECK_THAT(spoilt(&Library::boundaries_size), Contains("found Boundaries of"));
 }
 
 TEST_CASE("Name, version, author and units of a library must stand", "[plugin]") {

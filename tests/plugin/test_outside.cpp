@@ -20,6 +20,7 @@ struct TwoSquares {
   std::array<double, 8> x{0, 1, 1, 0, 0, 1, 0, -1}, y{0, 0, 1, 1, -1, 0, 1, 0}, v{};
   std::array<std::uint32_t, 8> surface{}, cut{};
   std::array<std::uint32_t, 3> piece_start{0, 4, 8};
+  std::array<std::uint8_t, 2> is_strip{};
   std::uint32_t row = 0;
   double stiffness = 3e6;
   static constexpr double half = 0.70710678118654752;  // cosine of 45 degrees
@@ -54,7 +55,8 @@ struct TwoSquares {
                         .length = length.data(),
                         .surface = surface.data(),
                         .cut = cut.data(),
-                        .piece_start = piece_start.data()};
+                        .piece_start = piece_start.data(),
+                        .is_strip = is_strip.data()};
     batch.interfaces = {&row, &stiffness, 1, 1};
     batch.pairs = &pair;
     batch.piece_pairs = &pieces;

@@ -6,7 +6,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace talus;
@@ -20,17 +22,31 @@ class Notes final : public CoverSink {
     stars.push_back({x, y});
     return static_cast<std::uint32_t>(stars.size() - 1);
   }
-  std::uint32_t add_element(const std::uint32_t patches[3], const AreaMoments& region) noexcept override {
+  std::uint32_t add_element(const std::uint32_t patches[3], const Region& region) noexcept override {
     elements.push_back({patches[0], patches[1], patches[2]});
-    regions.push_back(region);
+    AreaMoments sum{};
+    for (std::uint32_t r = 0; r < region.ring_count; ++r) {
+      Ring ring;
+      for (std::uint32_t i = region.ring_start[r]; i < region.ring_start[r + 1]; ++i)
+        ring.push_back({region.x[i], region.y[i]});
+      sum = sum + ring_moments(ring, {0, 0});
+    }
+    regions.push_back(sum);
     return static_cast<std::uint32_t>(elements.size() - 1);
   }
+  void add_boundary_vertex(double, double, std::uint32_t, std::uint32_t) noexcept override { ++boundary; }
+  void close_boundary_loop() noexcept override { ++boundary; }
+  void steady_patch(std::uint32_t, const std::uint32_t[3], const double[3], double) noexcept override {
+    ++steadied;
+  }
+  void refuse(const char* why) noexcept override { refusal = why; }
   void make_rigid() noexcept override { ++rigid; }
 
   std::vector<Vec2> stars;
   std::vector<std::array<std::uint32_t, 3>> elements;
   std::vector<AreaMoments> regions;
-  int rigid = 0;
+  int rigid = 0, boundary = 0, steadied = 0;
+  std::string refusal;
 };
 
 Made<CoverBuilder> builder(const char* name) {
@@ -54,7 +70,16 @@ struct Drawn {
     loop_start = {0, static_cast<std::uint32_t>(ring.size())};
   }
 
-  Outline outline() const { return {x.data(), y.data(), loop_start.data(), 1}; }
+  BodyShape shape() const { return {{x.data(), y.data(), loop_start.data(), 1}, moments, {}, {}}; }
+
+  /// The same with a line through it.
+  BodyShape cut() const {
+    static constexpr double line_x[] = {-20, 20}, line_y[] = {0, 0};
+    static constexpr std::uint32_t line_start[] = {0, 2};
+    BodyShape result = shape();
+    result.discontinuities = {line_x, line_y, line_start, 1};
+    return result;
+  }
 };
 
 double distance(Vec2 p, Vec2 q) {
@@ -76,7 +101,7 @@ TEST_CASE("a block is one element of three patches on a regular triangle around 
     const Drawn drawn(ring);
     Notes notes;
     const auto block = builder("block");
-    block->build(drawn.outline(), drawn.moments, notes);
+    block->build(drawn.shape(), notes);
     CHECK(notes.rigid == 0);
     REQUIRE(notes.stars.size() == 3);
     REQUIRE(notes.elements.size() == 1);
@@ -95,14 +120,13 @@ TEST_CASE("a block is one element of three patches on a regular triangle around 
         const double inside = (q.x - p.x) * (drawn.y[i] - p.y) - (q.y - p.y) * (drawn.x[i] - p.x);
         CHECK(inside >= -1e-12 * distance(p, q) * distance(p, q));
       }
-      CHECK(block->element_at(drawn.x[i], drawn.y[i]) == 0);
     }
 
     const AreaMoments& region = notes.regions[0];
-    CHECK(region.area == drawn.moments.area);
-    CHECK(region.xx == drawn.moments.xx);
-    CHECK(region.xy == drawn.moments.xy);
-    CHECK(region.yy == drawn.moments.yy);
+    CHECK(region.area == Approx(drawn.moments.area).epsilon(1e-14));
+    CHECK(region.xx == Approx(drawn.moments.xx).epsilon(1e-12));
+    CHECK(region.xy == Approx(drawn.moments.xy).margin(1e-12 * drawn.moments.xx));
+    CHECK(region.yy == Approx(drawn.moments.yy).epsilon(1e-12));
   }
 }
 
@@ -110,9 +134,19 @@ TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rig
   for (const Ring& ring : rings) {
     const Drawn drawn(ring);
     Notes notes;
-    builder("rigid")->build(drawn.outline(), drawn.moments, notes);
+    builder("rigid")->build(drawn.shape(), notes);
     CHECK(notes.rigid == 1);
     CHECK(notes.stars.empty());
     CHECK(notes.elements.empty());
+  }
+}
+
+TEST_CASE("a block and a rigid body cannot be cut by discontinuities", "[plugins][block][rigid]") {
+  for (const char* name : {"block", "rigid"}) {
+    Notes notes;
+    builder(name)->build(Drawn(rings[0]).cut(), notes);
+    CHECK(notes.refusal.find("cut by discontinuities") != std::string::npos);
+    CHECK(notes.elements.empty());
+    CHECK(notes.rigid == 0);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 CriticalStep vote_of(const Scene& scene) {
   const Model model = build_model(scene);
-  return critical_step(scene, model, ContactStage(scene, model, 1, true));
+  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, 1, true));
 }
 
 std::string stiff(double normal, double tangential) {

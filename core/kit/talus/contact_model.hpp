@@ -8,7 +8,9 @@ namespace talus {
 inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
 
 /// The boundaries of all bodies. A body is a set of convex *pieces* (one, if it is convex itself); a piece is
-/// a counter-clockwise ring of corners; side i of a piece runs from its corner i to the next. Positions are
+/// a counter-clockwise ring of corners; side i of a piece runs from its corner i to the next. A body of many
+/// elements shows a strip along each side of its boundary instead: all that is nearest to that side, to a
+/// limited depth. Loads act at real corners, the ends of sides that are not internal. Positions are
 /// in the frame of the body: relative to the body's reference centre, displaced. All arrays are read-only.
 struct Boundaries {
   const double* x;   ///< [corner] m
@@ -22,6 +24,9 @@ struct Boundaries {
   const std::uint32_t* surface;  ///< [corner] surface class of the side that starts here, or internal_side
   const std::uint32_t* cut;      ///< [corner] of an internal side: the number of its cut within the body
   const std::uint32_t* piece_start;  ///< [piece + 1] first corner of each piece
+  const std::uint8_t*
+      is_strip;  ///< [piece] 1: a strip behind one side of a body of many elements, side 0 of
+                 ///< the piece; the other sides are internal. Both ends of side 0 carry contact
 };
 
 /// Parameters of the interface between two surface classes, in the order the law declared them.
@@ -39,7 +44,8 @@ struct PiecePair {
   std::uint32_t load_start;  ///< first entry in Loads::fx of this piece pair: corners of a, then corners of b
 };
 
-/// Two bodies that are close enough to touch. The frame of a pair is the frame of body a.
+/// Two bodies that are close enough to touch, or twice the same one that touches itself. The frame of a pair
+/// is the frame of body a.
 struct BodyPair {
   std::uint32_t a;
   std::uint32_t b;
@@ -49,7 +55,7 @@ struct BodyPair {
   double offset_y;      ///< m
   double master_share;  ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
   double reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
-                        ///< fixed
+                        ///< fixed; a body of many elements counts by a patch of its boundary
   std::uint32_t slot_start;     ///< first contact slot of this pair
   std::uint32_t slot_capacity;  ///< how many contacts it can hold
   std::uint32_t

@@ -15,7 +15,7 @@ namespace talus {
 inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
 
 /// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
-inline constexpr std::uint32_t abi_number = 1;
+inline constexpr std::uint32_t abi_number = 2;
 
 inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
 
@@ -48,7 +48,8 @@ struct Library {
   std::uint32_t contact_loads_size = sizeof(ContactLoads);
   std::uint32_t body_pair_size = sizeof(BodyPair);
   std::uint32_t material_batch_size = sizeof(MaterialBatch);
-  std::uint32_t outline_size = sizeof(Outline);
+  std::uint32_t body_shape_size = sizeof(BodyShape);
+  std::uint32_t boundaries_size = sizeof(Boundaries);
   const char* units = unit_system;
   const char* name = nullptr;
   const char* version = nullptr;

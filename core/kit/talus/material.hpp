@@ -31,6 +31,10 @@ class Material {
 
   /// Stiffest tangent the law can show, Pa: 3×3 row-major over (xx, yy, 2·xy). For the time step.
   virtual void stiffest_tangent(double tangent[9]) const noexcept = 0;
+
+  /// Viscous stress over elastic stress at a strain rate of 1 per second, the largest, s: stiffness-
+  /// proportional damping. For the time step.
+  virtual double viscous_time() const noexcept { return 0; }
 };
 
 }  // namespace talus

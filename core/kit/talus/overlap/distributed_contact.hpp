@@ -69,6 +69,8 @@ class DistributedContact {
     for (const Overlap& overlap : finder_.overlaps()) {
       if (overlap.group != group) continue;
       ++members;
+      // A strip ends at division lines of its own, where the load of its neighbour takes over.
+      uniform = uniform && !overlap.piece[0].is_strip() && !overlap.piece[1].is_strip();
       const Piece& master = overlap.piece[master_body];
       const Piece& slave = overlap.piece[1 - master_body];
       divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
@@ -258,7 +260,7 @@ class DistributedContact {
     const double old_stored = history.stored, old_applied = history.applied;
     if (!(limit > 0) || contact_length_ == 0) {
       report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
-      history = {0, 0, 0, contact_length_, centre.x, centre.y, 0};
+      history = {0, 0, 0, contact_length_, centre.x, centre.y, 0, history.strip_a, history.strip_b};
       return {0, 0};
     }
     const FrictionInput input{stiffness / load * contact_length_,
@@ -315,11 +317,13 @@ class DistributedContact {
   /// shared by length; where overlaps merged, V adds up; where one ended, its stored energy is lost.
   void carry_history(const ContactBatch& batch, const BodyPair& pair, PairReport& report) {
     carried_.assign(report.contact_count, FrictionHistory{});
+    name_strips(report.contact_count);
     spans_.clear();
     if (pair.contact_count == 0) return;
     for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(finder_.span(g, batch.dt));
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
+      if (carry_to_same_strips(old)) continue;
       double total = 0;
       const auto weight = [&](const GroupSpan& span) {
         const bool same = length(span.centre - Point{old.x, old.y}) <= span.reach + old.contact_length / 2;
@@ -343,13 +347,38 @@ class DistributedContact {
     }
   }
 
+  void name_strips(std::uint32_t groups) {
+    for (const Overlap& overlap : finder_.overlaps()) {
+      if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
+      carried_[overlap.group].strip_a = 1.0 + overlap.piece[0].first_corner();
+      carried_[overlap.group].strip_b = 1.0 + overlap.piece[1].first_corner();
+    }
+  }
+
+  /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
+  /// neighbours: the two strips tell which is which as long as they touch.
+  bool carry_to_same_strips(const FrictionHistory& old) {
+    if (old.strip_a == 0) return false;
+    for (FrictionHistory& now : carried_) {
+      if (now.strip_a != old.strip_a || now.strip_b != old.strip_b) continue;
+      now.elastic += old.elastic;
+      now.applied += old.applied;
+      now.stored += old.stored;
+      now.contact_length += old.contact_length;
+      now.slip = old.slip;
+      return true;
+    }
+    return false;
+  }
+
   static FrictionHistory read_history(const double* from) {
-    return {from[0], from[1], from[2], from[3], from[4], from[5], from[6]};
+    return {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7], from[8]};
   }
 
   static void write_history(const FrictionHistory& history, double* to) {
     to[0] = history.elastic, to[1] = history.applied, to[2] = history.stored, to[3] = history.contact_length;
     to[4] = history.x, to[5] = history.y, to[6] = history.slip;
+    to[7] = history.strip_a, to[8] = history.strip_b;
   }
 
   ContactReport contact_report(Point tangential, double slip) const {

@@ -5,17 +5,18 @@
 
 namespace talus::overlap {
 
-/// What the host keeps for each overlap: seven doubles.
+/// What the host keeps for each overlap: nine doubles.
 struct FrictionHistory {
-  double elastic;         ///< N/m, tangential spring force on body b along s_c: −α_T V (Eq. 41)
-  double applied;         ///< N/m, tangential force without damping
-  double stored;          ///< J/m, in the tangential spring
-  double contact_length;  ///< m, L projected on s_c
-  double x, y;            ///< m, centre of the overlap in the frame of the pair, to know it again
-  double slip;            ///< direction of the force while slipping (±1), 0 while sticking
+  double elastic;           ///< N/m, tangential spring force on body b along s_c: −α_T V (Eq. 41)
+  double applied;           ///< N/m, tangential force without damping
+  double stored;            ///< J/m, in the tangential spring
+  double contact_length;    ///< m, L projected on s_c
+  double x, y;              ///< m, centre of the overlap in the frame of the pair, to know it again
+  double slip;              ///< direction of the force while slipping (±1), 0 while sticking
+  double strip_a, strip_b;  ///< 1 + numbers of the two pieces where one is a strip, else 0
 };
 
-inline constexpr unsigned friction_doubles = 7;
+inline constexpr unsigned friction_doubles = 9;
 
 enum class FrictionRule { return_mapping, paper };
 

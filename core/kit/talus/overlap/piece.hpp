@@ -14,9 +14,12 @@ class Piece {
         first_(boundaries.piece_start[piece]),
         size_(boundaries.piece_start[piece + 1] - first_),
         offset_(offset),
+        is_strip_(boundaries.is_strip[piece] != 0),
         load_start(first_load) {}
 
   std::uint32_t size() const { return size_; }
+  /// A strip behind side 0, of a body of many elements.
+  bool is_strip() const { return is_strip_; }
   std::uint32_t first_corner() const { return first_; }  ///< number among all corners
   std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
   std::uint32_t previous(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
@@ -49,6 +52,7 @@ class Piece {
   const Boundaries* boundaries_ = nullptr;
   std::uint32_t first_ = 0, size_ = 0;
   Point offset_{0, 0};
+  bool is_strip_ = false;
 
  public:
   std::uint32_t load_start = 0;  ///< first entry of this piece in ContactLoads::fx

@@ -1,0 +1,155 @@
+#include "model/laid_cover.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// Takes what a cover builder makes of one body.
+class Sink final : public CoverSink {
+ public:
+  std::uint32_t add_patch(double x, double y) noexcept override {
+    cover.patches.push_back({x, y});
+    return static_cast<std::uint32_t>(cover.patches.size() - 1);
+  }
+
+  std::uint32_t add_element(const std::uint32_t patches[3], const Region& region) noexcept override {
+    LaidCover::LaidElement& element = cover.elements.emplace_back();
+    element.patches = {patches[0], patches[1], patches[2]};
+    element.moments = {};
+    for (std::uint32_t r = 0; r < region.ring_count; ++r) {
+      Ring& ring = element.region.emplace_back();
+      for (std::uint32_t i = region.ring_start[r]; i < region.ring_start[r + 1]; ++i)
+        ring.push_back({region.x[i], region.y[i]});
+      if (!ring.empty()) element.moments = element.moments + moments_of(ring);
+    }
+    return static_cast<std::uint32_t>(cover.elements.size() - 1);
+  }
+
+  void add_boundary_vertex(double x, double y, std::uint32_t element, std::uint32_t side) noexcept override {
+    open_loop_.push_back({{x, y}, element, side});
+  }
+
+  void close_boundary_loop() noexcept override {
+    cover.loops.push_back(std::move(open_loop_));
+    open_loop_.clear();
+  }
+
+  void steady_patch(std::uint32_t patch, const std::uint32_t to[3], const double weights[3],
+                    double inertia_area) noexcept override {
+    cover.steadied.push_back(
+        {patch, {to[0], to[1], to[2]}, {weights[0], weights[1], weights[2]}, inertia_area});
+  }
+
+  void make_rigid() noexcept override { cover.rigid = true; }
+  void refuse(const char* why) noexcept override { refusal = why; }
+
+  LaidCover cover;
+  std::string refusal;
+
+ private:
+  /// About the body's centroid, taken about a corner of the ring first: a sliver keeps its digits.
+  static AreaMoments moments_of(const Ring& ring) {
+    const AreaMoments m = ring_moments(ring, ring[0]);
+    const Vec2 c = ring[0];
+    return {m.area,
+            m.x + c.x * m.area,
+            m.y + c.y * m.area,
+            m.xx + 2 * c.x * m.x + c.x * c.x * m.area,
+            m.xy + c.x * m.y + c.y * m.x + c.x * c.y * m.area,
+            m.yy + 2 * c.y * m.y + c.y * c.y * m.area};
+  }
+
+  std::vector<LaidCover::BoundaryVertex> open_loop_;
+};
+
+/// What a builder is given, kept alive while it works.
+struct GivenShape {
+  GivenShape(const SceneBody& scene_body, const Body& body) {
+    const auto local = [&](Vec2 p) { return Vec2{p.x - body.centre.x, p.y - body.centre.y}; };
+    const auto append = [&](const std::vector<Vec2>& points, std::vector<double>& to_x,
+                            std::vector<double>& to_y, std::vector<std::uint32_t>& start) {
+      for (const Vec2& p : points) {
+        to_x.push_back(local(p).x);
+        to_y.push_back(local(p).y);
+      }
+      start.push_back(static_cast<std::uint32_t>(to_x.size()));
+    };
+    append(scene_body.outer.vertices, x, y, ring_start);
+    for (const Loop& hole : scene_body.holes) append(hole.vertices, x, y, ring_start);
+    for (const Discontinuity& line : scene_body.discontinuities)
+      append(line.points, line_x, line_y, line_start);
+    std::vector<std::uint32_t> unused;
+    append(scene_body.mesh.nodes, node_x, node_y, unused);
+    for (const auto& triangle : scene_body.mesh.corners)
+      corners.insert(corners.end(), triangle.begin(), triangle.end());
+    shape = {
+        {x.data(), y.data(), ring_start.data(), static_cast<std::uint32_t>(ring_start.size() - 1)},
+        body.moments,
+        {line_x.data(), line_y.data(), line_start.data(), static_cast<std::uint32_t>(line_start.size() - 1)},
+        {node_x.data(), node_y.data(), reinterpret_cast<const std::uint32_t(*)[3]>(corners.data()),
+         static_cast<std::uint32_t>(node_x.size()), static_cast<std::uint32_t>(corners.size() / 3)}};
+  }
+
+  std::vector<double> x, y, line_x, line_y, node_x, node_y;
+  std::vector<std::uint32_t> ring_start{0}, line_start{0}, corners;
+  BodyShape shape{};
+};
+
+/// What makes it no cover of the body, in words; "" if nothing.
+std::string fault_of(const LaidCover& cover, const GivenShape& given) {
+  if (cover.rigid) return "";
+  if (cover.elements.empty()) return "it made no element";
+  double area = 0;
+  for (const LaidCover::LaidElement& element : cover.elements) {
+    for (const std::uint32_t patch : element.patches) {
+      if (patch >= cover.patches.size())
+        return fmt::format("an element names patch {} of {}", patch, cover.patches.size());
+    }
+    area += element.moments.area;
+  }
+  if (!(std::abs(area - given.shape.moments.area) <= 1e-9 * given.shape.moments.area)) {
+    return fmt::format("its elements have an area of {:.12g} m2, the body has {:.12g} m2", area,
+                       given.shape.moments.area);
+  }
+  if (cover.elements.size() == 1 && cover.patches.size() == 3) return "";
+  if (cover.loops.empty()) return "it has several elements and gave no boundary";
+  const std::size_t sides = given.x.size() + given.line_x.size();
+  for (const auto& loop : cover.loops) {
+    if (loop.size() < 3) return fmt::format("a loop of its boundary has {} vertices", loop.size());
+    for (const LaidCover::BoundaryVertex& vertex : loop) {
+      if (vertex.element >= cover.elements.size() || vertex.side >= sides)
+        return fmt::format("a boundary vertex names element {} of {} and side {} of {}", vertex.element,
+                           cover.elements.size(), vertex.side, sides);
+    }
+  }
+  for (const LaidCover::Steadied& one : cover.steadied) {
+    const auto known = [&](std::uint32_t patch) { return patch < cover.patches.size(); };
+    if (!known(one.patch) || !std::all_of(one.to.begin(), one.to.end(), known))
+      return "it steadies a patch that does not exist";
+  }
+  return "";
+}
+
+}  // namespace
+
+LaidCover lay_cover(const SceneBody& scene_body, const Body& body) {
+  const GivenShape given(scene_body, body);
+  const auto builder = make<CoverBuilder>(*scene_body.cover.component, scene_body.cover.values);
+  Sink sink;
+  builder->build(given.shape, sink);
+  const char* name = scene_body.cover.component->component->name;
+  if (!sink.refusal.empty())
+    throw PluginError(
+        fmt::format("body '{}' cannot have the cover '{}': {}", scene_body.name, name, sink.refusal));
+  if (const std::string fault = fault_of(sink.cover, given); !fault.empty()) {
+    throw PluginError(fmt::format("{}: cover '{}' does not fit body '{}': {}",
+                                  scene_body.cover.component->file.string(), name, scene_body.name, fault));
+  }
+  return std::move(sink.cover);
+}
+
+}  // namespace talus

@@ -1,0 +1,217 @@
+#include "model/strips.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+constexpr double depth_share = 0.4;  ///< of the side of an equilateral triangle as large as the element's
+constexpr double way_to_opposite = 0.45;     ///< of the distance to the opposite side
+constexpr double longest_miter = 3;          ///< of the depth, along the bisector of a sharp corner
+constexpr double smallest_turn = 0.1;        ///< rad, between sides that compete past a short one
+constexpr std::size_t most_competitors = 4;  ///< per strip and direction
+
+double dot(Vec2 p, Vec2 q) {
+  return p.x * q.x + p.y * q.y;
+}
+double cross(Vec2 p, Vec2 q) {
+  return p.x * q.y - p.y * q.x;
+}
+Vec2 minus(Vec2 p, Vec2 q) {
+  return {p.x - q.x, p.y - q.y};
+}
+Vec2 along(Vec2 p, double length, Vec2 direction) {
+  return {p.x + length * direction.x, p.y + length * direction.y};
+}
+Vec2 inward(Vec2 tangent) {
+  return {-tangent.y, tangent.x};
+}
+Vec2 unit(Vec2 p) {
+  const double size = std::sqrt(dot(p, p));
+  return size > 0 ? Vec2{p.x / size, p.y / size} : Vec2{};
+}
+
+struct ReferenceSide {
+  Vec2 start, end, tangent;
+  double length;
+};
+
+ReferenceSide reference_side(const Model& model, std::uint32_t side) {
+  const Vec2 start = model.sides[side].start.reference, end = model.sides[side].end.reference;
+  const Vec2 span = minus(end, start);
+  return {start, end, unit(span), std::sqrt(dot(span, span))};
+}
+
+/// Sides further along a convex stretch that are reached before twice the depth.
+void find_competitors(const Model& model, std::uint32_t side, double depth, bool onwards,
+                      std::vector<std::uint32_t>& competitors) {
+  const auto step = [&](std::uint32_t s) { return onwards ? model.next_side[s] : model.previous_side[s]; };
+  Vec2 tangent = reference_side(model, side).tangent;
+  double turned = 0, walked = 0;
+  std::uint32_t at = side;
+  for (std::size_t found = 0; found < most_competitors;) {
+    const std::uint32_t next = step(at);
+    if (next == side) return;
+    const ReferenceSide there = reference_side(model, next);
+    const double turn =
+        (onwards ? 1 : -1) * std::atan2(cross(tangent, there.tangent), dot(tangent, there.tangent));
+    if (turn < -1e-6) return;  // a reflex corner ends the convex stretch
+    turned += turn;
+    if (at != side && turned > smallest_turn && turned < 3) {
+      competitors.push_back(next);
+      ++found;
+    }
+    walked += there.length;
+    if (walked > 2 * depth) return;
+    tangent = there.tangent;
+    at = next;
+  }
+}
+
+/// How far the body reaches behind a side, seen from three of its points.
+double distance_to_opposite(const Model& model, const Body& body, std::uint32_t side) {
+  const ReferenceSide own = reference_side(model, side);
+  const Vec2 normal = inward(own.tangent);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const Vec2 from = along(own.start, share * own.length, own.tangent);
+    for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
+      if (other == side || other == model.next_side[side] || other == model.previous_side[side]) continue;
+      const ReferenceSide there = reference_side(model, other);
+      const double facing = dot(inward(there.tangent), normal);
+      if (facing >= 0) continue;
+      const double distance = dot(minus(there.start, from), inward(there.tangent)) / facing;
+      if (!(distance > 0) || distance >= nearest) continue;
+      const double place = dot(minus(along(from, distance, normal), there.start), there.tangent);
+      if (place >= 0 && place <= there.length) nearest = distance;
+    }
+  }
+  return nearest;
+}
+
+/// Inner bisector at the vertex between two sides, scaled to a depth of 1 behind both, cut short at sharp
+/// corners.
+Vec2 miter(Vec2 before, Vec2 after) {
+  const Vec2 sum{-before.y - after.y, before.x + after.x};
+  const double squared = dot(sum, sum);  // 4 cos² of half the turn
+  if (squared > 4 / (longest_miter * longest_miter)) return {2 * sum.x / squared, 2 * sum.y / squared};
+  Vec2 direction = unit(sum);
+  if (squared < 1e-12) {  // a needle's point or a crack's tip
+    const double sign = cross(before, after) > 0 ? 1 : -1;
+    direction = unit({sign * (after.x - before.x), sign * (after.y - before.y)});
+  }
+  return {longest_miter * direction.x, longest_miter * direction.y};
+}
+
+using Corners = std::array<Vec2, 4 + 2 * most_competitors + 1>;
+
+/// Keeps what is no deeper behind side k than behind the competitor; both ends of side k must stay.
+std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 competitor_start,
+                        Vec2 competitor_tangent) {
+  const Vec2 own = inward(tangent), other = inward(competitor_tangent), start = corners[0];
+  const auto lead = [&](Vec2 p) {
+    return dot(minus(p, competitor_start), other) - dot(minus(p, start), own);
+  };
+  if (lead(corners[0]) < 0 || lead(corners[1]) < 0) return count;
+  Corners kept{};
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 p = corners[i], q = corners[i + 1 == count ? 0 : i + 1];
+    const double from = lead(p), to = lead(q);
+    if (from >= 0) kept[size++] = p;
+    if ((from >= 0) != (to >= 0)) {
+      const double share = from / (from - to);
+      kept[size++] = {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+    }
+  }
+  corners = kept;
+  return size;
+}
+
+}  // namespace
+
+void add_strips(Model& model, std::uint32_t index) {
+  Body& body = model.bodies[index];
+  std::vector<double> depths;
+  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
+    const double size = model.side_size[side];
+    const double depth =
+        std::min(depth_share * size, way_to_opposite * distance_to_opposite(model, body, side));
+    std::vector<std::uint32_t> competitors;
+    find_competitors(model, side, depth, true, competitors);
+    find_competitors(model, side, depth, false, competitors);
+    depths.push_back(depth);
+    const std::size_t corners = 4 + competitors.size();
+    for (std::size_t c = 0; c < corners; ++c) {
+      model.reference_x.push_back(c == 1 || c == 2 ? model.sides[side].end.reference.x
+                                                   : model.sides[side].start.reference.x);
+      model.reference_y.push_back(c == 1 || c == 2 ? model.sides[side].end.reference.y
+                                                   : model.sides[side].start.reference.y);
+      model.surface.push_back(c == 0 ? model.sides[side].surface : internal_side);
+      model.cut.push_back(static_cast<std::uint32_t>(model.cut.size()));
+      model.corner_body.push_back(index);
+    }
+    model.piece_body.push_back(index);
+    model.piece_start.push_back(static_cast<std::uint32_t>(model.surface.size()));
+    model.is_strip.push_back(1);
+    model.strips.push_back({side, depth, static_cast<std::uint32_t>(model.competitors.size()),
+                            static_cast<std::uint32_t>(model.competitors.size() + competitors.size())});
+    model.piece_strip.push_back(static_cast<std::uint32_t>(model.strips.size() - 1));
+    model.competitors.insert(model.competitors.end(), competitors.begin(), competitors.end());
+  }
+  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
+                   depths.end());
+  body.contact_depth = depths[depths.size() / 2];
+}
+
+void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) {
+  const Body& body = model.bodies[index];
+  const auto first_corner = [&](std::uint32_t side) {
+    return model.piece_start[body.piece_begin + side - body.side_begin];
+  };
+  const auto corner = [&](std::uint32_t c) { return Vec2{motion.x[c], motion.y[c]}; };
+  const auto tangent_of = [&](std::uint32_t side) {
+    const std::uint32_t c = first_corner(side);
+    return unit(minus(corner(c + 1), corner(c)));
+  };
+  for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
+    const Strip& strip = model.strips[model.piece_strip[piece]];
+    const std::uint32_t first = model.piece_start[piece], last = model.piece_start[piece + 1];
+    const Vec2 start = corner(first), end = corner(first + 1), span = minus(end, start);
+    const Vec2 tangent = unit(span), normal = inward(tangent);
+    const Vec2 at_start = miter(tangent_of(model.previous_side[strip.side]), tangent);
+    const Vec2 at_end = miter(tangent, tangent_of(model.next_side[strip.side]));
+    double start_depth = strip.depth, end_depth = strip.depth;
+    // The bisectors meet where the strip has no width left.
+    const double start_behind = dot(at_start, normal), end_behind = dot(at_end, normal);
+    if (start_behind > 0 && end_behind > 0) {
+      const double closing = dot(at_start, tangent) / start_behind - dot(at_end, tangent) / end_behind;
+      const double length = std::sqrt(dot(span, span));
+      const double depth = strip.depth * std::min(start_behind, end_behind);
+      if (closing * depth > length) {
+        start_depth = length / closing / start_behind;
+        end_depth = length / closing / end_behind;
+      }
+    }
+    Corners corners{start, end, along(end, end_depth, at_end), along(start, start_depth, at_start)};
+    std::size_t count = 4;
+    for (std::uint32_t i = strip.competitor_begin; i < strip.competitor_end; ++i) {
+      const std::uint32_t other = model.competitors[i];
+      count = cut_towards(corners, count, tangent, corner(first_corner(other)), tangent_of(other));
+    }
+    for (std::uint32_t c = first + 2; c < last; ++c) {
+      const std::size_t from = std::min<std::size_t>(c - first, count - 1);
+      motion.x[c] = corners[from].x;
+      motion.y[c] = corners[from].y;
+      motion.vx[c] = motion.vx[from == 2 ? first + 1 : first];
+      motion.vy[c] = motion.vy[from == 2 ? first + 1 : first];
+    }
+  }
+}
+
+}  // namespace talus

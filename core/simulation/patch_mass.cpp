@@ -1,0 +1,135 @@
+#include "simulation/patch_mass.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// Deviation of a patch from the affine continuation, rᵀ v.
+Vec2 deviation(const SteadyPatch& steady, std::span<const Vec2> values, std::uint32_t first) {
+  Vec2 sum = values[steady.patch - first];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 other = values[steady.to.patch[i] - first];
+    sum.x -= steady.to.weight[i] * other.x;
+    sum.y -= steady.to.weight[i] * other.y;
+  }
+  return sum;
+}
+
+std::vector<SteadyPatch> heavier_patches(const Model& model, const Body& body) {
+  std::vector<SteadyPatch> result;
+  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    if (std::isfinite(model.steady[s].inertia)) result.push_back(model.steady[s]);
+  }
+  return result;
+}
+
+}  // namespace
+
+PatchMass::PatchMass(const Model& model) : core_inverse_(model.bodies.size()) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const std::vector<SteadyPatch> heavier = heavier_patches(model, body);
+    if (heavier.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(heavier.size());
+    const auto patches = static_cast<Eigen::Index>(body.patch_end - body.patch_begin);
+    Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(patches, count);
+    Eigen::VectorXd mass(patches);
+    for (Eigen::Index p = 0; p < patches; ++p) {
+      const double own = model.patch_mass[body.patch_begin + static_cast<std::uint32_t>(p)];
+      mass[p] = own > 0 ? own : 1;  // of a tied patch: no deviation names it
+    }
+    Eigen::MatrixXd core = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index s = 0; s < count; ++s) {
+      const SteadyPatch& steady = heavier[static_cast<std::size_t>(s)];
+      deviations(steady.patch - body.patch_begin, s) = 1;
+      for (std::size_t i = 0; i < 3; ++i)
+        deviations(steady.to.patch[i] - body.patch_begin, s) -= steady.to.weight[i];
+      core(s, s) = 1 / steady.inertia;
+    }
+    core += deviations.transpose() * mass.cwiseInverse().asDiagonal() * deviations;
+    const Eigen::MatrixXd inverse = core.llt().solve(Eigen::MatrixXd::Identity(count, count));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = 0; j < count; ++j) core_inverse_[b].push_back(inverse(i, j));
+    }
+  }
+}
+
+void PatchMass::accelerations(const Model& model, std::uint32_t index, std::vector<Vec2>& patches) const {
+  const Body& body = model.bodies[index];
+  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    const SteadyPatch& steady = model.steady[s];
+    if (std::isfinite(steady.inertia)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      patches[steady.to.patch[i]].x += steady.to.weight[i] * patches[steady.patch].x;
+      patches[steady.to.patch[i]].y += steady.to.weight[i] * patches[steady.patch].y;
+    }
+  }
+  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    const double mass = model.patch_mass[p];
+    if (!(mass > 0)) continue;
+    patches[p].x /= mass;
+    patches[p].y /= mass;
+  }
+  const std::vector<double>& core = core_inverse_[index];
+  if (!core.empty()) {
+    std::vector<Vec2> deviations;
+    std::vector<const SteadyPatch*> heavier;
+    for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+      if (!std::isfinite(model.steady[s].inertia)) continue;
+      heavier.push_back(&model.steady[s]);
+      deviations.push_back(deviation(model.steady[s], patches, 0));
+    }
+    for (std::size_t i = 0; i < heavier.size(); ++i) {
+      Vec2 pull;
+      for (std::size_t j = 0; j < heavier.size(); ++j) {
+        pull.x += core[i * heavier.size() + j] * deviations[j].x;
+        pull.y += core[i * heavier.size() + j] * deviations[j].y;
+      }
+      const SteadyPatch& steady = *heavier[i];
+      const auto give = [&](std::uint32_t patch, double factor) {
+        patches[patch].x -= factor * pull.x / model.patch_mass[patch];
+        patches[patch].y -= factor * pull.y / model.patch_mass[patch];
+      };
+      give(steady.patch, 1);
+      for (std::size_t k = 0; k < 3; ++k) give(steady.to.patch[k], -steady.to.weight[k]);
+    }
+  }
+  tie(model, index, patches);
+}
+
+void PatchMass::tie(const Model& model, std::uint32_t index, std::vector<Vec2>& patches) const {
+  const Body& body = model.bodies[index];
+  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    const SteadyPatch& steady = model.steady[s];
+    if (std::isfinite(steady.inertia)) continue;
+    Vec2 sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum.x += steady.to.weight[i] * patches[steady.to.patch[i]].x;
+      sum.y += steady.to.weight[i] * patches[steady.to.patch[i]].y;
+    }
+    patches[steady.patch] = sum;
+  }
+}
+
+double PatchMass::product(const Model& model, std::uint32_t index, std::span<const Vec2> p,
+                          std::span<const Vec2> q) const {
+  const Body& body = model.bodies[index];
+  double sum = 0;
+  for (std::uint32_t i = body.patch_begin; i < body.patch_end; ++i) {
+    const Vec2 a = p[i - body.patch_begin], b = q[i - body.patch_begin];
+    sum += model.patch_mass[i] * (a.x * b.x + a.y * b.y);
+  }
+  if (core_inverse_[index].empty()) return sum;
+  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    const SteadyPatch& steady = model.steady[s];
+    if (!std::isfinite(steady.inertia)) continue;
+    const Vec2 a = deviation(steady, p, body.patch_begin), b = deviation(steady, q, body.patch_begin);
+    sum += steady.inertia * (a.x * b.x + a.y * b.y);
+  }
+  return sum;
+}
+
+}  // namespace talus

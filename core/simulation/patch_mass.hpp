@@ -1,0 +1,35 @@
+#pragma once
+
+#include "model/model.hpp"
+#include "model/motion.hpp"
+
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// The mass of bodies of many elements: row sums of Eq. 17 on the diagonal; patches that are tied to others
+/// have none of their own; those with added inertia I bring I r rᵀ, r the deviation from the affine
+/// continuation. The inverse of the sum is D⁻¹ − D⁻¹R (I⁻¹ + RᵀD⁻¹R)⁻¹ RᵀD⁻¹ (Woodbury), of the size of the
+/// number of such patches.
+class PatchMass {
+ public:
+  explicit PatchMass(const Model& model);
+
+  /// Turns the forces on the patches of a body into accelerations, in place. `patches` are those of all
+  /// bodies.
+  void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
+
+  /// Tied patches take over the values of those they follow.
+  void tie(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
+
+  /// pᵀ M q of two velocity fields on the patches of a body, J/m twice over. They hold that body's patches
+  /// alone.
+  double product(const Model& model, std::uint32_t body, std::span<const Vec2> p,
+                 std::span<const Vec2> q) const;
+
+ private:
+  std::vector<std::vector<double>> core_inverse_;  ///< [body] (I⁻¹ + RᵀD⁻¹R)⁻¹, row by row; empty for most
+};
+
+}  // namespace talus

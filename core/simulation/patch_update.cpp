@@ -1,0 +1,90 @@
+#include "simulation/velocity_update.hpp"
+
+namespace talus {
+namespace {
+
+Vec2 along(Vec2 p, double factor, Vec2 q) {
+  return {p.x + factor * q.x, p.y + factor * q.y};
+}
+
+/// The velocity of each patch when the body spins by 1 rad/s about its centre of mass, in the present shape.
+std::vector<Vec2> unit_spin(const Model& model, const Body& body, const MotionState& motion) {
+  Vec2 centre;
+  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    const double share = model.patch_mass[p] / body.mass;
+    centre = along(centre, share, along(model.patch_star[p], 1, motion.patch_displacement[p]));
+  }
+  std::vector<Vec2> spin;
+  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    const Vec2 at = along(model.patch_star[p], 1, motion.patch_displacement[p]);
+    spin.push_back({-(at.y - centre.y), at.x - centre.x});
+  }
+  return spin;
+}
+
+/// Moving the centre of mass and turning about it are orthogonal in the mass, so taking one out leaves the
+/// other as it is.
+void impose_supports(const Model& model, const PatchMass& mass, std::uint32_t index, const Support& support,
+                     const StepConditions& conditions, const Update& update, const MotionState& motion,
+                     std::span<const Vec2> before, std::span<Vec2> after, AccelerationWork& work) {
+  const Body& body = model.bodies[index];
+  const auto impose_mode = [&](const std::optional<double>& wanted, const std::vector<Vec2>& mode) {
+    const double inertia = mass.product(model, index, mode, mode);
+    const double value = mass.product(model, index, after, mode) / inertia;
+    const double value_before = mass.product(model, index, before, mode) / inertia;
+    const double target = impose(wanted, inertia, value, value_before, conditions, update, work);
+    for (std::size_t i = 0; i < after.size(); ++i) after[i] = along(after[i], target - value, mode[i]);
+  };
+  if (support.x) impose_mode(support.x, std::vector<Vec2>(after.size(), Vec2{1, 0}));
+  if (support.y) impose_mode(support.y, std::vector<Vec2>(after.size(), Vec2{0, 1}));
+  if (support.rotation) impose_mode(support.rotation, unit_spin(model, body, motion));
+}
+
+/// K_n as for bodies that move as a whole: with steps of unequal length, by the velocity mirrored about t_n.
+double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t body,
+                       const StepConditions& conditions, std::span<const Vec2> before,
+                       std::span<const Vec2> at_step, std::span<const Vec2> after) {
+  if (conditions.dt_behind == conditions.dt_ahead) return mass.product(model, body, before, after) / 2;
+  const std::span<const Vec2> side = conditions.dt_behind > 0 ? before : after;
+  std::vector<Vec2> mirrored;
+  for (std::size_t i = 0; i < side.size(); ++i)
+    mirrored.push_back({2 * at_step[i].x - side[i].x, 2 * at_step[i].y - side[i].y});
+  return mass.product(model, body, side, mirrored) / 2;
+}
+
+}  // namespace
+
+void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
+                        const Support& support, const StepConditions& conditions, const Update& update,
+                        MotionState& motion, VelocitiesAtStep& at_step, AccelerationWork& work) {
+  const Body& body = model.bodies[index];
+  const std::size_t count = body.patch_end - body.patch_begin;
+  const std::span<Vec2> after(motion.patch_velocity.data() + body.patch_begin, count);
+  const std::span<Vec2> middle(at_step.patches.data() + body.patch_begin, count);
+  const std::vector<Vec2> before(after.begin(), after.end());
+
+  mass.accelerations(model, index, motion.patch_force);
+  Vec2 momentum;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 acceleration = along(motion.patch_force[body.patch_begin + i], 1, conditions.gravity);
+    after[i] = {update.keep * after[i].x + update.gain * acceleration.x,
+                update.keep * after[i].y + update.gain * acceleration.y};
+    momentum = along(momentum, model.patch_mass[body.patch_begin + i], before[i]);
+  }
+  impose_supports(model, mass, index, support, conditions, update, motion, before, after, work);
+  const double share = share_of_after(conditions);
+  for (std::size_t i = 0; i < count; ++i)
+    middle[i] = {before[i].x + share * (after[i].x - before[i].x),
+                 before[i].y + share * (after[i].y - before[i].y)};
+
+  work.kinetic += kinetic_at_step(model, mass, index, conditions, before, middle, after);
+  work.external_work +=
+      conditions.dt_behind * (conditions.gravity.x * momentum.x + conditions.gravity.y * momentum.y);
+  if (conditions.damping > 0) {
+    const double power = conditions.damping * mass.product(model, index, middle, middle);
+    work.damping_loss += power * conditions.dt_behind / 2;
+    work.damping_loss_ahead += power * conditions.dt_ahead / 2;
+  }
+}
+
+}  // namespace talus

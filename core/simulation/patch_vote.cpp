@@ -1,0 +1,172 @@
+#include "simulation/body_vote.hpp"
+#include "simulation/patch_mass.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace talus {
+namespace {
+
+constexpr int most_steps = 200;        ///< of Lanczos; some 30 suffice
+constexpr double close_enough = 1e-4;  ///< relative residual at which it ends
+
+using Field = std::vector<Vec2>;  ///< on the patches of all bodies; those of others stay zero
+using Operator = std::function<void(const Field& from, Field& to)>;
+
+struct Tangent {
+  std::array<double, 9> d{};
+  double viscous_time = 0;
+};
+
+/// Adds factor · Bᵀ D B v A of the elements of a body.
+void add_elastic(const Model& model, const Body& body, const Tangent& tangent, double factor,
+                 const Field& from, Field& to) {
+  for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
+    const Element& element = model.elements[model.body_element[i]];
+    const Matrix2 h = gradient(element, from);
+    const std::array<double, 3> strain{h.xx, h.yy, h.xy + h.yx};
+    std::array<double, 3> stress{};
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c)
+        stress[r] += factor * element.area * tangent.d[3 * r + c] * strain[c];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 g = element.gradient[k];
+      Vec2& force = to[element.patch[k]];
+      force.x += stress[0] * g.x + stress[2] * g.y;
+      force.y += stress[2] * g.x + stress[1] * g.y;
+    }
+  }
+}
+
+/// Adds springs of the given strengths across and along each side, at its ends.
+template <class Strengths>
+void add_springs(const Model& model, const Body& body, const SpringsOfSides& springs,
+                 const Strengths& strengths, const Field& from, Field& to) {
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const BoundarySide& side = model.sides[body.side_begin + i];
+    const Vec2 start = side.start.reference, end = side.end.reference;
+    const double length =
+        std::sqrt((end.x - start.x) * (end.x - start.x) + (end.y - start.y) * (end.y - start.y));
+    if (!(length > 0)) continue;
+    const Vec2 along{(end.x - start.x) / length, (end.y - start.y) / length}, across{along.y, -along.x};
+    const auto [normal, tangential] = strengths(springs[i]);
+    for (const MaterialPoint* point : {&side.start, &side.end}) {
+      Vec2 u;
+      for (std::size_t k = 0; k < 3; ++k) {
+        u.x += point->carrier.weight[k] * from[point->carrier.patch[k]].x;
+        u.y += point->carrier.weight[k] * from[point->carrier.patch[k]].y;
+      }
+      const double n = normal * (u.x * across.x + u.y * across.y),
+                   t = tangential * (u.x * along.x + u.y * along.y);
+      for (std::size_t k = 0; k < 3; ++k) {
+        to[point->carrier.patch[k]].x += point->carrier.weight[k] * (n * across.x + t * along.x);
+        to[point->carrier.patch[k]].y += point->carrier.weight[k] * (n * across.y + t * along.y);
+      }
+    }
+  }
+}
+
+/// Largest eigenvalue of M⁻¹A, with the residual of its approximation on top.
+double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32_t index,
+                          const Operator& apply) {
+  const Body& body = model.bodies[index];
+  const auto own = [&](const Field& field) {
+    return std::span<const Vec2>(field.data() + body.patch_begin, body.patch_end - body.patch_begin);
+  };
+  const auto product = [&](const Field& p, const Field& q) {
+    return mass.product(model, index, own(p), own(q));
+  };
+  const auto add = [&](Field& to, double factor, const Field& from) {
+    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+      to[p].x += factor * from[p].x;
+      to[p].y += factor * from[p].y;
+    }
+  };
+  Field now(model.patch_star.size()), before(now.size()), image(now.size());
+  std::uint64_t seed = 1;  // any start with a share of the mode sought will do; the same every time
+  const auto random = [&] {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(seed >> 40) / 16777216.0 - 0.5;
+  };
+  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) now[p] = {random(), random()};
+  mass.tie(model, index, now);
+  const double size = std::sqrt(product(now, now));
+  for (Vec2& v : now) v = {v.x / size, v.y / size};
+
+  std::vector<double> diagonal, beside;
+  double coupling = 0, best = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    std::fill(image.begin(), image.end(), Vec2{});
+    apply(now, image);
+    mass.accelerations(model, index, image);
+    diagonal.push_back(product(now, image));
+    add(image, -diagonal.back(), now);
+    add(image, -coupling, before);
+    const Eigen::Map<const Eigen::VectorXd> d(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()));
+    const Eigen::Map<const Eigen::VectorXd> e(beside.data(), static_cast<Eigen::Index>(beside.size()));
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(d, e);
+    coupling = std::sqrt(std::max(0.0, product(image, image)));
+    const Eigen::Index last = solver.eigenvalues().size() - 1;
+    const double residual = coupling * std::abs(solver.eigenvectors()(last, last));
+    best = solver.eigenvalues()[last] + residual;
+    if (residual <= close_enough * std::abs(solver.eigenvalues()[last]) || !(coupling > 0)) break;
+    beside.push_back(coupling);
+    before.swap(now);
+    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p)
+      now[p] = {image[p].x / coupling, image[p].y / coupling};
+  }
+  return std::max(0.0, best);
+}
+
+}  // namespace
+
+BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::uint32_t index,
+                         const SpringsOfSides& springs, bool treated) {
+  Model untreated;
+  if (!treated) {
+    untreated = treated_model;
+    untreated.patch_mass = untreated.row_sum;
+    untreated.bodies[index].steady_end = untreated.bodies[index].steady_begin;
+  }
+  const Model& model = treated ? treated_model : untreated;
+  const Body& body = model.bodies[index];
+  const PatchMass mass(model);
+  const Choice& choice = scene.materials[scene.bodies[index].material].model;
+  const auto material = make<Material>(*choice.component, choice.values);
+  Tangent tangent;
+  material->stiffest_tangent(tangent.d.data());
+  tangent.viscous_time = material->viscous_time();
+
+  const Operator elastic = [&](const Field& from, Field& to) {
+    add_elastic(model, body, tangent, 1, from, to);
+  };
+  const Operator stiffness = [&](const Field& from, Field& to) {
+    add_elastic(model, body, tangent, 1, from, to);
+    add_springs(
+        model, body, springs,
+        [](const SideSprings& s) { return std::pair(s.normal + s.support, s.tangential + s.support); }, from,
+        to);
+  };
+  const Operator damping = [&](const Field& from, Field& to) {
+    if (tangent.viscous_time > 0) add_elastic(model, body, tangent, tangent.viscous_time, from, to);
+    add_springs(
+        model, body, springs,
+        [](const SideSprings& s) { return std::pair(s.normal_damping, s.tangential_damping); }, from, to);
+  };
+  const auto any = [&](const auto& wanted) { return std::any_of(springs.begin(), springs.end(), wanted); };
+  const bool sprung = any([](const SideSprings& s) { return s.normal + s.tangential + s.support > 0; });
+  const bool damped = tangent.viscous_time > 0 ||
+                      any([](const SideSprings& s) { return s.normal_damping + s.tangential_damping > 0; });
+  BodyVote vote;
+  vote.elastic_lambda = largest_eigenvalue(model, mass, index, elastic);
+  vote.lambda = sprung ? largest_eigenvalue(model, mass, index, stiffness) : vote.elastic_lambda;
+  if (damped) vote.gamma = largest_eigenvalue(model, mass, index, damping);
+  return vote;
+}
+
+}  // namespace talus

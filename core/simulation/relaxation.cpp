@@ -1,0 +1,99 @@
+#include "simulation/relaxation.hpp"
+
+#include "simulation/integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+double size_of(Vec2 p) {
+  return std::sqrt(p.x * p.x + p.y * p.y);
+}
+
+/// Power of a change of force on a body that moves as a whole; a spin works by the torque.
+double power(const Body& body, const BodyMotion& motion, const BodyForce& change) {
+  const double moved = change.force.x * motion.velocity.x + change.force.y * motion.velocity.y;
+  if (body.kinematics == Kinematics::rigid) return moved + torque(motion, change) * motion.spin;
+  const Matrix2 &q = change.moment, &rate = motion.rate;
+  return moved + q.xx * rate.xx + q.xy * rate.xy + q.yx * rate.yx + q.yy * rate.yy;
+}
+
+BodyForce difference(const BodyForce& p, const BodyForce& q) {
+  return {{p.force.x - q.force.x, p.force.y - q.force.y},
+          {p.moment.xx - q.moment.xx, p.moment.xy - q.moment.xy, p.moment.yx - q.moment.yx,
+           p.moment.yy - q.moment.yy}};
+}
+
+}  // namespace
+
+double Relaxation::damping(const Damping& how, const Model& model, const MotionState& motion, double dt) {
+  if (how.kind == Damping::Kind::constant) return how.constant;
+  if (how.kind == Damping::Kind::kinetic) return 0;
+  double stiffness = 0, inertia = 0;
+  const bool can_tell = last_forces_.size() == motion.forces.size() && dt > 0;
+  for (std::uint32_t b = 0; can_tell && b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::covered) {
+      const std::span<const Vec2> velocity(motion.patch_velocity.data() + body.patch_begin,
+                                           body.patch_end - body.patch_begin);
+      for (std::size_t i = 0; i < velocity.size(); ++i) {
+        const Vec2 now = motion.patch_force[body.patch_begin + i],
+                   last = last_patch_forces_[body.patch_begin + i];
+        stiffness -= (now.x - last.x) * velocity[i].x + (now.y - last.y) * velocity[i].y;
+      }
+      inertia += mass_.product(model, b, velocity, velocity);
+      continue;
+    }
+    const BodyMotion& moved = motion.bodies[b];
+    stiffness -= power(body, moved, difference(motion.forces[b], last_forces_[b]));
+    inertia += 2 * kinetic_energy(body, body.mass / body.moments.area, moved, moved);
+  }
+  last_forces_ = motion.forces;
+  last_patch_forces_ = motion.patch_force;
+  return inertia > 0 ? 2 * std::sqrt(std::max(0.0, stiffness / (dt * inertia))) : 0;
+}
+
+bool Relaxation::past_peak(const Damping& how, double kinetic) {
+  const bool past = how.kind == Damping::Kind::kinetic && kinetic < last_kinetic_;
+  last_kinetic_ = past ? 0 : kinetic;
+  return past;
+}
+
+double Relaxation::unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) {
+  double sum = 0;
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::covered) {
+      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+        const double mass = model.patch_mass[p];
+        if (!(mass > 0)) continue;  // it follows others
+        sum +=
+            size_of({motion.patch_force[p].x + mass * gravity.x, motion.patch_force[p].y + mass * gravity.y});
+      }
+      continue;
+    }
+    const BodyForce& force = motion.forces[b];
+    sum += size_of({force.force.x + body.mass * gravity.x, force.force.y + body.mass * gravity.y});
+    if (body.kinematics == Kinematics::rigid) {
+      sum += std::abs(torque(motion.bodies[b], force)) / body.width;
+    } else {
+      const Matrix2& q = force.moment;
+      sum += std::sqrt(q.xx * q.xx + q.xy * q.xy + q.yx * q.yx + q.yy * q.yy) / body.width;
+    }
+  }
+  return sum;
+}
+
+double Relaxation::weight(const Model& model, Vec2 gravity) {
+  double sum = 0;
+  for (const Body& body : model.bodies) {
+    if (body.kinematics != Kinematics::fixed) sum += body.mass * size_of(gravity);
+  }
+  return sum;
+}
+
+}  // namespace talus

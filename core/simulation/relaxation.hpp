@@ -1,0 +1,38 @@
+#pragma once
+
+#include "model/model.hpp"
+#include "model/motion.hpp"
+#include "scene/scene.hpp"
+#include "simulation/patch_mass.hpp"
+
+#include <vector>
+
+namespace talus {
+
+/// Brings a scene to rest (dynamic relaxation): global damping that is critical for the motion there is, or
+/// velocities taken away at each peak of the kinetic energy.
+class Relaxation {
+ public:
+  explicit Relaxation(const Model& model) : mass_(model) {}
+
+  /// Global damping for the coming step, 1/s. Adaptive: 2ω with ω² = −v·Δf / (Δt v·M v), the Rayleigh
+  /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step.
+  double damping(const Damping& how, const Model& model, const MotionState& motion, double dt);
+
+  /// Kinetic damping: whether the kinetic energy has passed a peak, so that all velocities are to be set to
+  /// zero.
+  bool past_peak(const Damping& how, double kinetic);
+
+  /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m; for a body that moves as a
+  /// whole, its resultant and its moments over its width.
+  static double unbalanced(const Model& model, const MotionState& motion, Vec2 gravity);
+  static double weight(const Model& model, Vec2 gravity);
+
+ private:
+  PatchMass mass_;
+  std::vector<BodyForce> last_forces_;
+  std::vector<Vec2> last_patch_forces_;
+  double last_kinetic_ = 0;
+};
+
+}  // namespace talus

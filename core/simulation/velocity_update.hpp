@@ -1,0 +1,35 @@
+#pragma once
+
+#include "simulation/integrator.hpp"
+
+#include <optional>
+
+namespace talus {
+
+/// v₊ = keep v₋ + gain a, mass-proportional damping taken at mid-step.
+struct Update {
+  double keep, gain;
+};
+
+/// Books the work of the reaction that makes the velocity of one motion, of generalised mass `mass`, what a
+/// support wants; returns that velocity.
+inline double impose(const std::optional<double>& wanted, double mass, double value, double value_before,
+                     const StepConditions& conditions, const Update& update, AccelerationWork& work) {
+  const double target = conditions.supports_driven ? *wanted : 0;
+  const double reaction = mass * (target - value) / update.gain;
+  work.external_work += reaction * value_before * conditions.dt_behind / 2;
+  work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
+  return target;
+}
+
+/// Share of v₊ in the velocity at t_n; one half for equal steps.
+inline double share_of_after(const StepConditions& conditions) {
+  return conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);
+}
+
+/// The patches of a body of many elements.
+void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
+                        const StepConditions& conditions, const Update& update, MotionState& motion,
+                        VelocitiesAtStep& at_step, AccelerationWork& work);
+
+}  // namespace talus

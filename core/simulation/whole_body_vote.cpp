@@ -1,0 +1,90 @@
+#include "simulation/body_vote.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+/// u(X) = N q with q = (u, H by rows) for an affine body, (u, θ) for a rigid one.
+using Shape = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
+Shape shape_at(Kinematics kinematics, Vec2 p) {
+  if (kinematics == Kinematics::rigid) {
+    Shape n(2, 3);
+    n << 1, 0, -p.y, 0, 1, p.x;
+    return n;
+  }
+  Shape n = Shape::Zero(2, 6);
+  n(0, 0) = n(1, 1) = 1;
+  n(0, 2) = n(1, 4) = p.x;
+  n(0, 3) = n(1, 5) = p.y;
+  return n;
+}
+
+Eigen::MatrixXd mass_matrix(const Body& body, double density) {
+  if (body.kinematics == Kinematics::rigid) {
+    return Eigen::Vector3d(body.mass, body.mass, body.inertia).asDiagonal();
+  }
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(6, 6);
+  mass(0, 0) = mass(1, 1) = body.mass;
+  for (int row = 2; row < 6; row += 2) {
+    mass(row, row) = density * body.moments.xx;
+    mass(row + 1, row + 1) = density * body.moments.yy;
+    mass(row, row + 1) = mass(row + 1, row) = density * body.moments.xy;
+  }
+  return mass;
+}
+
+/// A Bᵀ D B over (u, H), strains xx, yy, 2·xy; and the same times the viscous time.
+struct Elastic {
+  Eigen::MatrixXd stiffness, damping;
+};
+
+Elastic elastic_matrix(const Body& body, const SceneMaterial& material) {
+  Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
+  b(0, 2) = b(1, 5) = b(2, 3) = b(2, 4) = 1;
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> d;
+  const auto model = make<Material>(*material.model.component, material.model.values);
+  model->stiffest_tangent(d.data());
+  const Eigen::MatrixXd stiffness = body.moments.area * b.transpose() * d * b;
+  return {stiffness, model->viscous_time() * stiffness};
+}
+
+double largest_eigenvalue(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& mass) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, mass,
+                                                                         Eigen::EigenvaluesOnly);
+  return std::max(0.0, solver.eigenvalues().maxCoeff());
+}
+
+}  // namespace
+
+BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t index,
+                         const SpringsOfSides& springs) {
+  const Body& body = model.bodies[index];
+  const SceneMaterial& material = scene.materials[scene.bodies[index].material];
+  const Eigen::MatrixXd mass = mass_matrix(body, material.density);
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  Elastic elastic{zero, zero};
+  if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);
+  Eigen::MatrixXd stiffness = elastic.stiffness, damping = elastic.damping;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const BoundarySide& side = model.sides[body.side_begin + i];
+    const Vec2 start = side.start.reference, end = side.end.reference;
+    const Eigen::Vector2d along = Eigen::Vector2d(end.x - start.x, end.y - start.y).normalized();
+    const Eigen::Vector2d across(along.y(), -along.x());
+    for (const Vec2 corner : {start, end}) {
+      const Shape shape = shape_at(body.kinematics, corner);
+      const Eigen::VectorXd n = shape.transpose() * across, t = shape.transpose() * along;
+      stiffness += springs[i].normal * n * n.transpose() + springs[i].tangential * t * t.transpose() +
+                   springs[i].support * shape.transpose() * shape;
+      damping +=
+          springs[i].normal_damping * n * n.transpose() + springs[i].tangential_damping * t * t.transpose();
+    }
+  }
+  return {largest_eigenvalue(stiffness, mass), largest_eigenvalue(damping, mass),
+          largest_eigenvalue(elastic.stiffness, mass)};
+}
+
+}  // namespace talus
