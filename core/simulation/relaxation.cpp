@@ -62,18 +62,16 @@ bool Relaxation::past_peak(const Damping& how, double kinetic) {
   return past;
 }
 
-double Relaxation::unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) {
+double Relaxation::unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) const {
   double sum = 0;
+  std::vector<Vec2> acceleration = motion.patch_force;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     if (body.kinematics == Kinematics::fixed) continue;
     if (body.kinematics == Kinematics::covered) {
-      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
-        const double mass = model.patch_mass[p];
-        if (!(mass > 0)) continue;  // it follows others
-        sum +=
-            size_of({motion.patch_force[p].x + mass * gravity.x, motion.patch_force[p].y + mass * gravity.y});
-      }
+      mass_.accelerations(model, b, acceleration);
+      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p)
+        sum += model.patch_mass[p] * size_of({acceleration[p].x + gravity.x, acceleration[p].y + gravity.y});
       continue;
     }
     const BodyForce& force = motion.forces[b];

@@ -25,7 +25,7 @@ class Relaxation {
 
   /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m; for a body that moves as a
   /// whole, its resultant and its moments over its width.
-  static double unbalanced(const Model& model, const MotionState& motion, Vec2 gravity);
+  double unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) const;
   static double weight(const Model& model, Vec2 gravity);
 
  private:

@@ -88,7 +88,7 @@ void Simulation::State::forces() {
   const Vec2 pull = gravity();
   if (settling && scene.settle->until) {
     unbalanced_share =
-        Relaxation::unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
+        relaxation.unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
   }
   const Damping& how = settling ? scene.settle->damping : stage.damping;
   const double damping = relaxation.damping(how, model, motion, dt_behind);

@@ -175,6 +175,13 @@ TEST_CASE("a mesh with a hole has an outer loop and a clockwise one", "[geometry
   // Groups without names go by their numbers.
   CHECK(mesh.loops[1].surfaces == Names{"2", "", "", "1"});
   CHECK(mesh.loops[0].surfaces == Names(12, ""));
+
+  // The outer loop comes first even where a node of the hole does.
+  const std::string moved = with(with(frame(), "\n6 1 1 0\n", "\n"), "\n1 0 0 0\n", "\n6 1 1 0\n1 0 0 0\n");
+  const GmshMesh other = read_gmsh_text(moved, "a.msh");
+  REQUIRE(other.loops.size() == 2);
+  CHECK(other.loops[0].nodes.size() == 12);
+  CHECK(other.loops[1].nodes[0] == 0);
 }
 
 TEST_CASE("a physical group picks its triangles", "[geometry][gmsh]") {

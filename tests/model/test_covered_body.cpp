@@ -1,0 +1,155 @@
+#include "model/model.hpp"
+#include "model/motion.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace talus;
+
+namespace {
+
+WorkingScene covered(const std::string& polygon, const std::string& cover, const std::string& more = "") {
+  WorkingScene text;
+  text.bodies = fmt::format(
+      R"({{"name": "a", "material": "rock", "polygon": {}, "cover": {{"model": "hexagonal", {}}}{}}})",
+      polygon, cover, more);
+  return text;
+}
+
+const char* const ell = "[[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]]";
+
+double signed_area(const MotionState& motion, std::uint32_t begin, std::uint32_t end) {
+  double sum = 0;
+  for (std::uint32_t c = begin; c < end; ++c) {
+    const std::uint32_t next = c + 1 == end ? begin : c + 1;
+    sum += motion.x[c] * motion.y[next] - motion.x[next] * motion.y[c];
+  }
+  return sum / 2;
+}
+
+}  // namespace
+
+TEST_CASE("row sums of a lattice are the mass of the body and keep its centre", "[model][cover]") {
+  for (const char* slivers : {"merge", "mass_scale", "keep"}) {
+    for (const char* place : {R"("size": 0.37)", R"("size": 0.5, "offset_x": 0.1, "angle": 17)"}) {
+      const Model model =
+          build_model(covered(ell, fmt::format(R"({}, "slivers": "{}")", place, slivers)).read());
+      const Body& body = model.bodies[0];
+      REQUIRE(body.kinematics == Kinematics::covered);
+      double mass = 0;
+      Vec2 moment;
+      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+        CHECK(model.patch_mass[p] >= 0);
+        mass += model.patch_mass[p];
+        moment.x += model.patch_mass[p] * model.patch_star[p].x;
+        moment.y += model.patch_mass[p] * model.patch_star[p].y;
+      }
+      CHECK(mass == Approx(2300 * 5).epsilon(1e-12));
+      CHECK(std::abs(moment.x) <= 1e-11 * mass);
+      CHECK(std::abs(moment.y) <= 1e-11 * mass);
+    }
+  }
+}
+
+TEST_CASE("every point of a body is carried by weights that sum to one and give back its place",
+          "[model][cover]") {
+  const Model model = build_model(covered(ell, R"("size": 0.4, "angle": 5)").read());
+  for (const BoundarySide& side : model.sides) {
+    Vec2 place;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double weight = side.start.carrier.weight[i];
+      const Vec2 star = model.patch_star[side.start.carrier.patch[i]];
+      sum += weight;
+      place = {place.x + weight * star.x, place.y + weight * star.y};
+      CHECK(weight >= -1e-9);
+    }
+    CHECK(sum == Approx(1).epsilon(1e-13));
+    CHECK(place.x == Approx(side.start.reference.x).margin(1e-12));
+    CHECK(place.y == Approx(side.start.reference.y).margin(1e-12));
+  }
+  const MaterialPoint outside = model.point(0, {50, 50});
+  CHECK(outside.carrier.weight[0] + outside.carrier.weight[1] + outside.carrier.weight[2] == Approx(1));
+}
+
+TEST_CASE("strips stand behind their sides, convex and apart", "[model][strips]") {
+  for (const char* cover : {R"("size": 0.4)", R"("size": 0.31, "offset_x": 0.05, "angle": 11)"}) {
+    const Model model = build_model(covered(ell, cover).read());
+    const MotionState motion(model);
+    const Body& body = model.bodies[0];
+    double strips = 0;
+    for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
+      const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
+      const Strip& strip = model.strips[model.piece_strip[piece]];
+      const BoundarySide& side = model.sides[strip.side];
+      CHECK(motion.x[begin] == side.start.reference.x);
+      CHECK(motion.y[begin + 1] == side.end.reference.y);
+      const double area = signed_area(motion, begin, end);
+      CHECK(area > 0);
+      strips += area;
+      for (std::uint32_t c = begin; c < end; ++c) {
+        // Every corner lies inside of every side, and no deeper than the strip.
+        for (std::uint32_t k = begin; k < end; ++k) {
+          const double depth = motion.tangent_x[k] * (motion.y[c] - motion.y[k]) -
+                               motion.tangent_y[k] * (motion.x[c] - motion.x[k]);
+          CHECK(depth >= -1e-9);
+          if (k == begin) CHECK(depth <= strip.depth * (1 + 1e-9));
+        }
+      }
+    }
+    CHECK(strips < body.moments.area);
+  }
+}
+
+TEST_CASE("where bisectors cross behind a short side the strips share the ground without overlap",
+          "[model][strips]") {
+  // A chamfer of 1 cm on a block of 1 m: the layer of depth d along the boundary has a known area.
+  const Model model = build_model(
+      covered("[[0, 0], [1, 0], [1, 0.99], [0.99, 1], [0, 1]]", R"("size": 0.4, "slivers": "keep")").read());
+  const MotionState motion(model);
+  double strips = 0, depth = 1;
+  for (const Strip& strip : model.strips) depth = std::min(depth, strip.depth);
+  for (std::uint32_t piece = 0; piece < model.piece_body.size(); ++piece) {
+    REQUIRE(model.strips[piece].depth == Approx(depth));
+    strips += signed_area(motion, model.piece_start[piece], model.piece_start[piece + 1]);
+  }
+  // Two squares differ by the layer, up to what the chamfer cuts off at both depths.
+  const double inner = (1 - 2 * depth) * (1 - 2 * depth), chamfer = 0.01 * 0.01 / 2;
+  CHECK(strips == Approx(1 - chamfer - inner).epsilon(1e-9));
+}
+
+TEST_CASE("a body of many elements turns and stretches with its patches", "[model][cover]") {
+  const Model model = build_model(covered(ell, R"("size": 0.4, "angle": 3)").read());
+  MotionState motion(model);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const Matrix2 h{1.01 * c - 1, -s, 1.01 * s, c - 1};
+  for (std::size_t p = 0; p < model.patch_star.size(); ++p) {
+    const Vec2 star = model.patch_star[p];
+    motion.patch_displacement[p] = {2 + h.xx * star.x + h.xy * star.y, -1 + h.yx * star.x + h.yy * star.y};
+  }
+  motion.move_boundary(model);
+  motion.average(model, 0);
+  CHECK(motion.bodies[0].u.x == Approx(2));
+  CHECK(motion.bodies[0].u.y == Approx(-1));
+  CHECK(motion.bodies[0].h.xx == Approx(h.xx).margin(1e-13));
+  CHECK(motion.bodies[0].h.yx == Approx(h.yx).margin(1e-13));
+  for (std::uint32_t piece = 0; piece < model.piece_body.size(); ++piece) {
+    const MaterialPoint& start = model.sides[model.strips[model.piece_strip[piece]].side].start;
+    const Vec2 due{2 + h.xx * start.reference.x + h.xy * start.reference.y,
+                   -1 + h.yx * start.reference.x + h.yy * start.reference.y};
+    CHECK(motion.x[model.piece_start[piece]] - start.reference.x == Approx(due.x).margin(1e-12));
+    CHECK(motion.y[model.piece_start[piece]] - start.reference.y == Approx(due.y).margin(1e-12));
+  }
+}
+
+TEST_CASE("a cover that a body cannot have is refused with the names of both", "[model][cover]") {
+  WorkingScene text;
+  text.bodies = box("cracked", 0, 0, 1, 1, R"("discontinuities": [{"points": [[-1, 0.5], [2, 0.5]]}])");
+  text.cover = "block";
+  CHECK_THROWS_WITH(build_model(text.read()), Catch::Contains("'cracked'") && Catch::Contains("'block'") &&
+                                                  Catch::Contains("hexagonal"));
+}
