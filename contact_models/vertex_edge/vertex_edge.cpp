@@ -269,8 +269,8 @@ class VertexEdge final : public ContactModel {
                                 const CornerContact& contact) {
     const std::uint32_t before = contact.vertex == 0 ? own.size() - 1 : contact.vertex - 1;
     const Point along = other.tangent(contact.side);
-    const std::uint32_t edge =
-        dot(own.tangent(before), along) < dot(own.tangent(contact.vertex), along) ? before : contact.vertex;
+    const bool is_before = dot(own.tangent(before), along) < dot(own.tangent(contact.vertex), along);
+    const std::uint32_t edge = own.is_strip() ? 0 : is_before ? before : contact.vertex;
     const std::uint32_t row =
         interfaces.row[own.surface(edge) * interfaces.surface_count + other.surface(contact.side)];
     return read(interfaces.value + row * interfaces.parameter_count);

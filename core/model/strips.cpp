@@ -133,6 +133,14 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
   return size;
 }
 
+/// A side as short as rounding would have any direction: its ends become one.
+void join_coincident(Corners& corners, std::size_t count, double depth) {
+  for (std::size_t i = 3; i < count; ++i) {
+    const Vec2 apart = minus(corners[i], corners[i - 1]);
+    if (dot(apart, apart) < 1e-18 * depth * depth) corners[i] = corners[i - 1];
+  }
+}
+
 }  // namespace
 
 void add_strips(Model& model, std::uint32_t index) {
@@ -204,6 +212,7 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
       const std::uint32_t other = model.competitors[i];
       count = cut_towards(corners, count, tangent, corner(first_corner(other)), tangent_of(other));
     }
+    join_coincident(corners, count, strip.depth);
     for (std::uint32_t c = first + 2; c < last; ++c) {
       const std::size_t from = std::min<std::size_t>(c - first, count - 1);
       motion.x[c] = corners[from].x;

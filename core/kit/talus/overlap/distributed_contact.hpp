@@ -31,6 +31,10 @@ class DistributedContact {
     if (overlaps == 0) return;
 
     const LoadSink sink{loads.fx, loads.fy};
+    const Overlap& first = finder_.overlaps()[0];
+    among_strips_ = first.piece[0].is_strip() || first.piece[1].is_strip();
+    balance_ = {};
+    last_resort_ = {};
     for (std::uint32_t g = 0; g < groups; ++g) {
       cells_.clear();
       segments_.clear();
@@ -56,6 +60,7 @@ class DistributedContact {
       }
       if (g < pair.slot_capacity) loads.reports[pair.slot_start + g] = contact_report(tangential, slip);
     }
+    if (among_strips_ && last_resort_.load > 0) close_balance(sink, last_resort_);
   }
 
   /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
@@ -63,14 +68,12 @@ class DistributedContact {
   void normal_loads(const Law& law, const Interfaces& interfaces, const LoadSink& sink, std::uint32_t group,
                     std::uint32_t master_body, double share, PairReport& report) {
     const std::size_t first_cell = cells_.size();
-    balance_ = {};
+    if (!among_strips_) balance_ = {};
     bool uniform = true;
     std::uint32_t members = 0;
     for (const Overlap& overlap : finder_.overlaps()) {
       if (overlap.group != group) continue;
       ++members;
-      // A strip ends at division lines of its own, where the load of its neighbour takes over.
-      uniform = uniform && !overlap.piece[0].is_strip() && !overlap.piece[1].is_strip();
       const Piece& master = overlap.piece[master_body];
       const Piece& slave = overlap.piece[1 - master_body];
       divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
@@ -99,7 +102,17 @@ class DistributedContact {
                           static_cast<std::uint32_t>(segments_.size())});
       });
     }
-    if ((members > 1 || !uniform) && cells_.size() > first_cell) close_balance(sink, first_cell);
+    if (among_strips_) {
+      // A strip ends at division lines of its own, where its neighbour takes over: only all strips together
+      // are in balance.
+      for (std::size_t c = first_cell; c < cells_.size(); ++c) {
+        const Cell& cell = cells_[c];
+        if (!(cell.load > last_resort_.load)) continue;
+        last_resort_ = {cell.overlap->piece[cell.master], cell.side, cell.foot, cell.load};
+      }
+    } else if ((members > 1 || !uniform) && cells_.size() > first_cell) {
+      close_balance(sink, largest_cell(first_cell));
+    }
   }
 
   void find_segments(const Piece& master, const Piece& slave, std::uint32_t side, std::uint32_t slave_body,
@@ -162,16 +175,27 @@ class DistributedContact {
     }
   }
 
-  /// Where the stiffness changes within one overlap, or a deep overlap reaches past the cut of a concave
-  /// master, the pressure jumps along a division line and Eqs. 33–34 leave a remainder; the master takes it.
-  void close_balance(const LoadSink& sink, std::size_t first_cell) const {
+  /// A master side and the foot of its load.
+  struct LoadedSide {
+    Piece master;
+    std::uint32_t side = 0;
+    Point foot{0, 0};
+    double load = 0;
+  };
+
+  LoadedSide largest_cell(std::size_t first_cell) const {
     const Cell* largest = &cells_[first_cell];
     for (std::size_t c = first_cell; c < cells_.size(); ++c) {
       if (cells_[c].load > largest->load) largest = &cells_[c];
     }
-    const Piece& master = largest->overlap->piece[largest->master];
-    sink.on_side(master, largest->side, master.lever(largest->side, largest->foot), -1.0 * balance_.force);
-    sink.couple(master, largest->side, -balance_.moment_about(largest->foot));
+    return {largest->overlap->piece[largest->master], largest->side, largest->foot, largest->load};
+  }
+
+  /// Where the stiffness changes within one overlap, or a deep overlap reaches past the cut of a concave
+  /// master, the pressure jumps along a division line and Eqs. 33–34 leave a remainder; the master takes it.
+  void close_balance(const LoadSink& sink, const LoadedSide& at) const {
+    sink.on_side(at.master, at.side, at.master.lever(at.side, at.foot), -1.0 * balance_.force);
+    sink.couple(at.master, at.side, -balance_.moment_about(at.foot));
   }
 
   /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it.
@@ -400,6 +424,8 @@ class DistributedContact {
   std::vector<FrictionHistory> carried_;
   std::vector<GroupSpan> spans_;
   Balance balance_;
+  bool among_strips_ = false;  ///< whether a body of the pair has many elements
+  LoadedSide last_resort_;     ///< among strips: where what is left over goes
   Point normal_on_b_{0, 0}, tangent_{0, 0};
   double contact_length_ = 0, slip_velocity_ = 0, slip_increment_ = 0, penetration_ = 0;
 };

@@ -1,0 +1,134 @@
+#include "contact/contact_stage.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace talus;
+
+namespace {
+
+/// A square a and a kite b that points at its right side with a corner.
+WorkingScene corner_on_flat(const std::string& cover_a, const std::string& cover_b, const std::string& law) {
+  WorkingScene text;
+  text.law = law;
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies =
+      box("a", 0, 0, 1, 1, cover_a) +
+      R"(, {"name": "b", "material": "rock", "polygon": [[1, 0.5], [1.8, -0.1], [2.6, 0.7], [1.7, 1.5]], )" +
+      cover_b + "}";
+  return text;
+}
+
+const char* const block = R"("cover": {"model": "block"})";
+const char* const coarse = R"("cover": {"model": "hexagonal", "size": 0.3, "angle": 7})";
+const char* const fine = R"("cover": {"model": "hexagonal", "size": 0.11, "angle": 40})";
+
+struct Loaded {
+  double stored;
+  Vec2 force_a, force_b;  ///< N/m
+  double moment;          ///< N, of all loads about the origin
+};
+
+/// Loads when b is displaced as a whole.
+class Pressed {
+ public:
+  explicit Pressed(const WorkingScene& text) : scene_(text.read()), model_(build_model(scene_)) {}
+
+  Loaded at(double x, double y, double turn = 0) const {
+    MotionState motion(model_);
+    const Body& b = model_.bodies[1];
+    const Matrix2 h{std::cos(turn) - 1, -std::sin(turn), std::sin(turn), std::cos(turn) - 1};
+    motion.bodies[1].u = {x, y};
+    motion.bodies[1].h = h;
+    for (std::uint32_t p = b.patch_begin; p < b.patch_end; ++p) {
+      const Vec2 star = model_.patch_star[p];
+      motion.patch_displacement[p] = {x + h.xx * star.x + h.xy * star.y, y + h.yx * star.x + h.yy * star.y};
+    }
+    motion.move_boundary(model_);
+    ContactStage contacts(scene_, model_, 1, true);
+    contacts.find_pairs(model_, motion, 1e9);
+    Loaded loaded{contacts.evaluate(model_, motion, {0, true, false}).stored, {}, {}, 0};
+    add(motion, 0, loaded.force_a, loaded.moment);
+    add(motion, 1, loaded.force_b, loaded.moment);
+    return loaded;
+  }
+
+ private:
+  /// Linear functions are carried exactly, so patch forces at their star points have the moment of the loads.
+  void add(const MotionState& motion, std::uint32_t index, Vec2& force, double& moment) const {
+    const Body& body = model_.bodies[index];
+    const auto act = [&](Vec2 load, Vec2 at) {
+      force = {force.x + load.x, force.y + load.y};
+      moment += (body.centre.x + at.x) * load.y - (body.centre.y + at.y) * load.x;
+    };
+    if (body.kinematics == Kinematics::covered) {
+      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+        const Vec2 star = model_.patch_star[p], d = motion.patch_displacement[p];
+        act(motion.patch_force[p], {star.x + d.x, star.y + d.y});
+      }
+      return;
+    }
+    const BodyForce& f = motion.forces[index];
+    act(f.force, motion.bodies[index].u);
+    moment += torque(motion.bodies[index], f);
+  }
+
+  Scene scene_;
+  Model model_;
+};
+
+}  // namespace
+
+TEST_CASE("between bodies of any covers the contact force is minus the gradient of its energy",
+          "[contact][strips]") {
+  const std::pair<const char*, const char*> covers[] = {
+      {block, coarse}, {coarse, block}, {coarse, coarse}, {coarse, fine}, {fine, coarse}};
+  const double whole = Pressed(corner_on_flat(block, block, "frictionless")).at(-0.01, 0.1).force_b.x;
+  for (const auto& [a, b] : covers) {
+    INFO(a << ' ' << b);
+    const Pressed pressed(corner_on_flat(a, b, "frictionless"));
+    for (const double depth : {1e-4, 0.01, 0.03}) {
+      for (int i = 0; i < 12; ++i) {
+        const double y = -0.2 + 0.037 * i, step = 1e-4 * depth;
+        const Loaded here = pressed.at(-depth, y);
+        const double fx =
+            -(pressed.at(-depth + step, y).stored - pressed.at(-depth - step, y).stored) / (2 * step);
+        const double fy =
+            -(pressed.at(-depth, y + step).stored - pressed.at(-depth, y - step).stored) / (2 * step);
+        CHECK(here.force_b.x == Approx(fx).epsilon(1e-6));
+        CHECK(here.force_b.y == Approx(fy).margin(1e-6 * fx));
+      }
+    }
+    // The force of a corner on a flat side does not depend on how either is covered.
+    CHECK(pressed.at(-0.01, 0.1).force_b.x == Approx(whole).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("loads on bodies of any covers are equal and opposite and leave no moment", "[contact][strips]") {
+  for (const char* law : {"frictionless", "overlap_area", "vertex_edge"}) {
+    for (const auto& [a, b] : {std::pair{block, fine}, std::pair{coarse, fine}}) {
+      const Pressed pressed(corner_on_flat(a, b, law));
+      for (const double turn : {0.0, 0.05, -0.15, -0.3}) {
+        INFO(law << ' ' << a << ' ' << turn);
+        const Loaded loaded = pressed.at(-0.02, 0.05, turn);
+        const double size = std::hypot(loaded.force_b.x, loaded.force_b.y);
+        CHECK(size > 0);
+        CHECK(std::abs(loaded.force_a.x + loaded.force_b.x) <= 1e-11 * size);
+        CHECK(std::abs(loaded.force_a.y + loaded.force_b.y) <= 1e-11 * size);
+        CHECK(std::abs(loaded.moment) <= 1e-11 * size);
+      }
+    }
+  }
+}
+
+TEST_CASE("an energy that passes over joints of either boundary has no jump", "[contact][strips]") {
+  const Pressed pressed(corner_on_flat(coarse, fine, "frictionless"));
+  const double due = pressed.at(-0.01, 0).stored;
+  for (int i = 0; i <= 1000; ++i)
+    CHECK(pressed.at(-0.01, -0.2 + 4e-4 * i + 1e-9).stored == Approx(due).epsilon(1e-9));
+}
