@@ -1,5 +1,7 @@
 #include "contact/neighbours.hpp"
 
+#include "model/strips.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,12 +64,11 @@ void NeighbourSearch::fill_grid() {
   std::sort(grid_.begin(), grid_.end());
 }
 
-/// Two strips of one body that do not hang together at a corner.
+/// Two strips of one body that do not hang together.
 bool NeighbourSearch::may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q) {
   if (!model.bodies[model.piece_body[p]].meets_itself || p == q) return false;
-  const std::uint32_t a = model.strips[model.piece_strip[p]].side,
-                      b = model.strips[model.piece_strip[q]].side;
-  return model.next_side[a] != b && model.previous_side[a] != b;
+  const Strip &a = model.strips[model.piece_strip[p]], &b = model.strips[model.piece_strip[q]];
+  return !hang_together(model, a, b.side) && !hang_together(model, b, a.side);
 }
 
 void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,

@@ -150,6 +150,22 @@ void measure_widths(Model& model) {
   model.mean_width = moving > 0 ? sum / static_cast<double>(moving) : 0;
 }
 
+std::array<double, 4> box_of(const std::vector<Ring>& region) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::array<double, 4> box{far, far, -far, -far};
+  for (const Ring& ring : region) {
+    for (const Vec2 p : ring)
+      box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};
+  }
+  return box;
+}
+
+double squared_distance(const std::array<double, 4>& box, Vec2 p) {
+  const double dx = std::max({box[0] - p.x, 0.0, p.x - box[2]}),
+               dy = std::max({box[1] - p.y, 0.0, p.y - box[3]});
+  return dx * dx + dy * dy;
+}
+
 /// Squared distance to a region; 0 within it.
 double squared_distance(const std::vector<Ring>& region, Vec2 p) {
   bool odd = false;
@@ -175,6 +191,7 @@ std::uint32_t Model::element_at(std::uint32_t body, Vec2 reference) const {
   std::uint32_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = bodies[body].element_begin; i < bodies[body].element_end && nearest > 0; ++i) {
+    if (squared_distance(element_box[body_element[i]], reference) >= nearest) continue;
     const double distance = squared_distance(element_region[body_element[i]], reference);
     if (distance >= nearest) continue;
     nearest = distance;
@@ -204,6 +221,7 @@ Model build_model(const Scene& scene) {
   model.bodies.reserve(scene.bodies.size());
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) add_body(model, scene, i);
   sort_elements(model, scene);
+  for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   measure_widths(model);
   return model;
 }

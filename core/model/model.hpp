@@ -118,6 +118,7 @@ struct Model {
   std::vector<Element> elements;
   std::vector<std::uint32_t> material_element_start;  ///< [material + 1]
   std::vector<std::uint32_t> body_element;            ///< elements body after body, as the cover made them
+  std::vector<std::array<double, 4>> element_box;     ///< [element] m, least x and y, greatest x and y
   std::vector<std::vector<Ring>> element_region;      ///< [element] rings, m, X; empty for an affine block
 
   double smallest_width = 0;  ///< m, of the moving bodies

@@ -47,30 +47,37 @@ ReferenceSide reference_side(const Model& model, std::uint32_t side) {
   return {start, end, unit(span), std::sqrt(dot(span, span))};
 }
 
-/// Sides further along a convex stretch that are reached before twice the depth.
-void find_competitors(const Model& model, std::uint32_t side, double depth, bool onwards,
-                      std::vector<std::uint32_t>& competitors) {
+/// Visits the sides further along a stretch without reflex corner, with the angle turned so far, until
+/// `visit` says no or twice the depth is walked.
+template <class Visit>
+void walk(const Model& model, std::uint32_t side, double depth, bool onwards, const Visit& visit) {
   const auto step = [&](std::uint32_t s) { return onwards ? model.next_side[s] : model.previous_side[s]; };
   Vec2 tangent = reference_side(model, side).tangent;
   double turned = 0, walked = 0;
-  std::uint32_t at = side;
-  for (std::size_t found = 0; found < most_competitors;) {
-    const std::uint32_t next = step(at);
-    if (next == side) return;
+  for (std::uint32_t next = step(side); next != side && walked <= 2 * depth; next = step(next)) {
     const ReferenceSide there = reference_side(model, next);
     const double turn =
         (onwards ? 1 : -1) * std::atan2(cross(tangent, there.tangent), dot(tangent, there.tangent));
-    if (turn < -1e-6) return;  // a reflex corner ends the convex stretch
+    if (turn < -1e-6) return;
     turned += turn;
-    if (at != side && turned > smallest_turn && turned < 3) {
+    if (!visit(next, turned)) return;
+    walked += there.length;
+    tangent = there.tangent;
+  }
+}
+
+/// Sides past the next one that are reached before twice the depth and look another way.
+void find_competitors(const Model& model, std::uint32_t side, double depth, bool onwards,
+                      std::vector<std::uint32_t>& competitors) {
+  const std::uint32_t neighbour = onwards ? model.next_side[side] : model.previous_side[side];
+  std::size_t found = 0;
+  walk(model, side, depth, onwards, [&](std::uint32_t next, double turned) {
+    if (next != neighbour && turned > smallest_turn && turned < 3) {
       competitors.push_back(next);
       ++found;
     }
-    walked += there.length;
-    if (walked > 2 * depth) return;
-    tangent = there.tangent;
-    at = next;
-  }
+    return found < most_competitors;
+  });
 }
 
 /// How far the body reaches behind a side, seen from three of its points.
@@ -221,6 +228,17 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
       motion.vy[c] = motion.vy[from == 2 ? first + 1 : first];
     }
   }
+}
+
+bool hang_together(const Model& model, const Strip& strip, std::uint32_t side) {
+  bool met = model.next_side[strip.side] == side || model.previous_side[strip.side] == side;
+  for (const bool onwards : {true, false}) {
+    walk(model, strip.side, strip.depth, onwards, [&](std::uint32_t next, double /*turned*/) {
+      met = met || next == side;
+      return !met;
+    });
+  }
+  return met;
 }
 
 }  // namespace talus

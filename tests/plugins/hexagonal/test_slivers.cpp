@@ -1,0 +1,124 @@
+#include "recorded_cover.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace talus::covered;
+
+namespace {
+
+constexpr double merge = 0, mass_scale = 1, keep = 2;
+const double row = std::sqrt(3.0) / 2;
+const double full = row;  // ∫ w dA over a hexagon of size 1, m²
+
+/// Reaches beyond the lattice lines on every side.
+DrawnBody overhanging(double e = 1e-6) {
+  return DrawnBody({{{-e, -e}, {4 + e, -e}, {4 + e, 4 * row + e}, {-e, 4 * row + e}}});
+}
+
+std::size_t poor_patches(const RecordedCover& cover, double share) {
+  std::size_t count = 0;
+  for (const double sum : cover.row_sums()) count += sum < share * full ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("merging leaves no free patch with little of the body", "[plugins][hexagonal]") {
+  const DrawnBody body = overhanging();
+  const RecordedCover cover = lay(body, {1, {0, 0}, 0, merge, 0.1});
+  check_cover(body, cover, 1);
+  REQUIRE(poor_patches(cover, 1e-5) > 0);
+  REQUIRE(cover.steadied.size() == poor_patches(cover, 0.1));
+
+  const std::vector<double> sums = cover.row_sums();
+  for (const Steadied& one : cover.steadied) {
+    CHECK(sums[one.patch] < 0.1 * full);
+    CHECK(std::isinf(one.inertia_area));
+    // Σ w d_to of a linear field is its value at the star point.
+    const auto field = [](Point at) { return 0.3 + 1.7 * at.x - 2.9 * at.y; };
+    double followed = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(sums[one.to[k]] >= 0.1 * full);
+      followed += one.weights[k] * field(cover.stars[one.to[k]]);
+    }
+    CHECK(followed == Approx(field(cover.stars[one.patch])).epsilon(1e-11));
+    // Nearby: a neighbour of the star point, not farther than two sides.
+    for (const std::uint32_t to : one.to) CHECK(distance(cover.stars[to], cover.stars[one.patch]) < 2.01);
+  }
+}
+
+TEST_CASE("mass scaling gives a patch the inertia that it lacks", "[plugins][hexagonal]") {
+  const DrawnBody body = overhanging();
+  const RecordedCover cover = lay(body, {1, {0, 0}, 0, mass_scale, 0.1});
+  check_cover(body, cover, 1);
+  REQUIRE(cover.steadied.size() == poor_patches(cover, 0.1));
+  REQUIRE(!cover.steadied.empty());
+  const std::vector<double> sums = cover.row_sums();
+  for (const Steadied& one : cover.steadied) {
+    CHECK(sums[one.patch] + one.inertia_area == Approx(0.1 * full).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("slivers can be left alone", "[plugins][hexagonal]") {
+  const DrawnBody body = overhanging(1e-4);
+  CHECK(lay(body, {1, {0, 0}, 0, keep, 0.1}).steadied.empty());
+  CHECK(lay(body, {1, {0, 0}, 0, merge, 0}).steadied.empty());
+  CHECK(lay(body, {1, {0, 0}, 0, merge, 0.3}).steadied.size() >
+        lay(body, {1, {0, 0}, 0, merge, 0.1}).steadied.size());
+}
+
+TEST_CASE("a patch follows its own part of the body only", "[plugins][hexagonal]") {
+  // Cut along a line 1e-6 above the lattice: what the upper part has of the row below is a sliver, right
+  // above good elements of the other part.
+  const DrawnBody body({{{0, 0}, {4, 0}, {4, 4 * row}, {0, 4 * row}}},
+                       {{{-1, 2 * row - 1e-6}, {5, 2 * row - 1e-6}}});
+  const RecordedCover cover = lay(body, {1, {0, 0}, 0, merge, 0.1});
+  check_cover(body, cover, 1);
+  REQUIRE(cover.parts() == 2);
+
+  const double middle = 2 * row - body.centroid().y - 1e-6;
+  std::vector<int> upper(cover.stars.size(), -1);
+  for (const auto& element : cover.elements) {
+    const auto m = moments_of(element.rings);
+    for (const std::uint32_t patch : element.patch) upper[patch] = m.y / m.area > middle ? 1 : 0;
+  }
+  std::size_t of_upper = 0;
+  for (const Steadied& one : cover.steadied) {
+    for (const std::uint32_t to : one.to) CHECK(upper[to] == upper[one.patch]);
+    of_upper += upper[one.patch] == 1 ? 1 : 0;
+  }
+  // The five vertices of the row below that the upper part has nothing of but the sliver (at −0.5 … 4.5,
+  // six).
+  CHECK(of_upper >= 5);
+}
+
+TEST_CASE("where no patch has much of the body, all are left free", "[plugins][hexagonal]") {
+  const DrawnBody body({{{0, 0}, {0.2, 0}, {0.2, 0.1}, {0, 0.1}}});
+  const RecordedCover cover = lay(body, {1, {-0.3, -0.2}, 0, merge, 0.1});
+  check_cover(body, cover, 1);
+  CHECK(cover.steadied.empty());
+  CHECK(cover.elements.size() == 1);
+}
+
+TEST_CASE("a crowd of slivers never makes a mass negative", "[plugins][hexagonal]") {
+  // A comb of thin teeth on a bar: many patches that look for the same few targets.
+  Line comb{{0, -2.2}, {9.1, -2.2}};
+  for (int i = 9; i >= 0; --i) {
+    comb.push_back({i + 0.1, 0.05});
+    comb.push_back({i + 0.1, 3.3});
+    comb.push_back({i + 0.05, 3.3});
+    comb.push_back({i + 0.05, 0.05});
+  }
+  comb.back() = {0, 0.05};
+  comb[comb.size() - 2] = {0, 3.3};
+  const DrawnBody body({comb});
+  for (const double share : {0.02, 0.1, 0.3, 0.5}) {
+    for (const double offset : {0.0, 0.13, 0.41, 0.77}) {
+      const RecordedCover cover = lay(body, {1, {offset, offset}, 0, merge, share});
+      check_cover(body, cover, 1);
+      CHECK(!cover.steadied.empty());
+    }
+  }
+}
