@@ -117,7 +117,8 @@ std::vector<Point> positions(const Arrangement& made, const Curves& curves, cons
     return {lattice.point(edge.lattice.start()), lattice.point(edge.lattice.end())};
   };
   const std::vector<LinesOfNode> lines = lines_of_nodes(made);
-  const double near = lattice.size() / static_cast<double>(unit);  // one grid step
+  // A flat crossing lies several grid steps from where rounding put it.
+  const double near = 32 * lattice.size() / static_cast<double>(unit);
   for (std::uint32_t node = 0; node < lines.size(); ++node) {
     const auto [first, second] = lines[node];
     if (first == nullptr) continue;
