@@ -51,9 +51,9 @@ void Simulation::State::step(double next_end) {
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
   begin_due_stages();
   if (plan.done == plan.steps) {
-    make_plan(next_end);
+    make_plan(plan.end < plan.target ? plan.target : next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
-    make_plan(plan.end);
+    make_plan(plan.target);
   }
   forces();
   check_step();
@@ -139,7 +139,7 @@ double Simulation::State::allowed_dt() const {
 
 void Simulation::State::make_plan(double end) {
   if (!(end > time)) {  // nowhere left to go: the velocity at the end looks ahead by the step it came with
-    plan = {time, time, plan.dt, 1, 0};
+    plan = {time, time, plan.dt, 1, 0, time};
     return;
   }
   double dt = nominal_dt();
@@ -150,10 +150,11 @@ void Simulation::State::make_plan(double end) {
   } else {
     summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : critical.limiter;
   }
+  const double target = end;
   if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
   const double span = end - time;
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - rounding))));
-  plan = {time, end, span / static_cast<double>(steps), steps, 0};
+  plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   summary.dt = std::max(summary.dt, plan.dt);
 }
 

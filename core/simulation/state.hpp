@@ -41,6 +41,7 @@ struct Simulation::State {
   struct Plan {
     double begin = 0, end = 0, dt = 0;
     std::uint64_t steps = 0, done = 0;
+    double target = 0;  ///< s, the output time; later than `end` where a stage begins before
   };
   Plan plan;
 

@@ -240,8 +240,140 @@ def same_bits(program):
            "same" if near_record["state_hash"] == far_record["state_hash"] else "differ", "same state_hash")
 
 
+def generated(program, name, *arguments):
+    """What a generator writes to the standard output, as a file of that name."""
+    script = SCENES / "generate" / arguments[0]
+    done = subprocess.run([sys.executable, str(script), *arguments[1:]], capture_output=True, text=True, check=True)
+    path = program.folder / name
+    path.write_text(done.stdout)
+    return path
+
+
+def orders(errors, ratio=2.0):
+    return [math.log(a / b) / math.log(ratio) for a, b in zip(errors, errors[1:])]
+
+
+def meshed(program, source, name, body, surfaces, size, columns, rows, corner):
+    """A copy of a scene, a dictionary, with its only body as a mesh whose sides have the names `surfaces`."""
+    mesh = generated(program, f"{name}.msh", "mesh.py", "--size", *map(str, size), "--divisions", str(columns),
+                     str(rows), "--corner", *map(str, corner))
+    text = mesh.read_text()
+    for old, new in surfaces.items():
+        text = text.replace(f'"{old}"', f'"{new}"')
+    mesh.write_text(text)
+    scene = dict(source, cover={"model": "mesh"}, bodies=[{"name": body, "mesh": str(mesh), "material": "rock"}])
+    path = program.folder / f"{name}.json"
+    path.write_text(json.dumps(scene))
+    return path
+
+
+def scene_text(path):
+    return json.loads("\n".join(line.split(" //")[0] for line in path.read_text().split("\n")
+                                if not line.lstrip().startswith("//")))
+
+
+def cantilever(program):
+    exact = 3.7766e-4
+    errors = []
+    for size in (0.25, 0.176777, 0.125, 0.0883883):
+        history, _ = program.run(SCENES / "cantilever.json", f"/cover/size={size}")
+        errors.append(abs(history["tip.y"][-1] - exact) / exact)
+        report(f"hexagonal, H/{1 / size:.3g}: deflection [m]", f"{history['tip.y'][-1]:.5e}", f"{exact}, error {errors[-1]:.2%}")
+    over_two = [math.log2(errors[i] / errors[i + 2]) for i in range(2)]
+    report("hexagonal: order of the error", ", ".join(f"{o:.2f}" for o in over_two), ">= 1.9",
+           all(o >= 1.9 for o in over_two))
+    errors = []
+    for rows in (4, 8, 16):
+        scene = meshed(program, scene_text(SCENES / "cantilever.json"), f"beam{rows}", "beam",
+                       {"left": "wall", "right": "end"}, (10, 1), 10 * rows, rows, (0, -0.5))
+        history, _ = program.run(scene)
+        errors.append(abs(history["tip.y"][-1] - exact) / exact)
+        report(f"mesh, H/{rows}: deflection [m]", f"{history['tip.y'][-1]:.5e}", f"{exact}, error {errors[-1]:.2%}")
+    first, last = orders(errors)
+    report("mesh: order of the error", f"{first:.2f}, {last:.2f}", "the last >= 1.9", last >= 1.9)
+
+
+def bar_scene(size):
+    """Let go at the first time of the history in the shape of the first longitudinal mode."""
+    wave = [[x, math.sin(math.pi * x / 10)] for x in (-5 + 0.1 * i for i in range(101))]
+    points = [-5 + 10 * (i + 0.5) / 40 for i in range(40)]
+    return {"talus": 1,
+            "materials": {"rock": {"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0}},
+            "cover": {"model": "hexagonal", "size": size, "offset_x": 0.123, "offset_y": 0.057, "angle": 17},
+            "bodies": [{"name": "bar", "material": "rock", "polygon": [[-5, -0.25], [5, -0.25], [5, 0.25], [-5, 0.25]],
+                        "surfaces": {"top": [2], "bottom": [0]}}],
+            "surface_loads": [{"body": "bar", "surface": surface, "traction": [{"scale": 1e5, "x": wave}, 0]}
+                              for surface in ("top", "bottom")],
+            "settle": {"duration": 0.05, "damping": "adaptive"},
+            "stages": [{"name": "free", "from": 2e-4, "set": {"/surface_loads": []}}],
+            "monitors": [{"name": f"m{i}", "body": "bar", "point": [x, 0], "quantities": ["x"]}
+                         for i, x in enumerate(points)],
+            "time": {"end": 0.1002, "safety": 0.2}, "output": {"history": 2e-4}}
+
+
+def frequency(program, scene):
+    """From the zeros of the share of the first mode in the motion."""
+    history, _ = program.run(scene)
+    points = [-5 + 10 * (i + 0.5) / 40 for i in range(40)]
+    share = [sum(math.sin(math.pi * x / 10) * (history[f"m{i}.x"][k] - x) for i, x in enumerate(points))
+             for k in range(len(history["t"]))]
+    time = history["t"]
+    zeros = [time[k - 1] + (time[k] - time[k - 1]) * share[k - 1] / (share[k - 1] - share[k])
+             for k in range(1, len(time)) if share[k - 1] * share[k] < 0]
+    return (len(zeros) - 1) / 2 / (zeros[-1] - zeros[0])
+
+
+def bar(program):
+    exact = math.sqrt(1e10 / 2300) / 20
+    for cover in ("hexagonal", "mesh"):
+        errors = []
+        for size in (0.5, 0.25, 0.125):
+            scene = program.folder / f"bar{size}.json"
+            scene.write_text(json.dumps(bar_scene(size)))
+            if cover == "mesh":
+                scene = meshed(program, bar_scene(size), f"bar_mesh{size}", "bar", {}, (10, 0.5), round(10 / size),
+                               round(0.5 / size), (-5, -0.25))
+            found = frequency(program, scene)
+            errors.append(abs(found - exact) / exact)
+            report(f"{cover}, {size} m: frequency [Hz]", f"{found:.4f}", f"{exact:.3f}, error {errors[-1]:.1e}")
+        mean = math.log(errors[0] / errors[-1]) / math.log(4)
+        report(f"{cover}: order, over both halvings", f"{mean:.2f}", ">= 1.9", mean >= 1.9)
+
+
+def contact_patch(program):
+    for what, cover in (("hexagonal on hexagonal", None), ("block on hexagonal", '{"model": "block"}')):
+        history, _ = program.run(SCENES / "contact_patch.json", *([f"/bodies/1/cover={cover}"] if cover else []))
+        error = max(abs(history[f"{at}.stress_{c}"][-1] - due) / 1000
+                    for at in ("below", "above", "middle") for c, due in (("xx", 0), ("yy", -1000), ("xy", 0)))
+        report(f"{what}: stress off the even pressure, share", f"{error:.1e}", "1e-6", error <= 1e-6)
+
+
+def hertz(program):
+    """Half width from where the two boundaries part, peak from p^2 against x^2 in the inner 0.6 of it."""
+    for cylinder, block in ((6, 6), (6, 10), (10, 6), (10, 10)):
+        folder = program.folder / f"hertz{cylinder}_{block}"
+        subprocess.run([sys.executable, str(SCENES / "generate/hertz.py"), "--out", str(folder), "--cylinder",
+                        str(cylinder), "--block", str(block)], check=True)
+        history, _ = program.run(folder / "hertz.json")
+        x, p = [], []
+        while f"b{len(x)}.y" in history:
+            b, c = (f"{name}{len(x)}" for name in "bc")
+            x.append((history[f"{b}.x"][-1] + history[f"{c}.x"][-1]) / 2)
+            p.append(1e13 * (history[f"{b}.y"][-1] - history[f"{c}.y"][-1]))
+        out = next(i for i, value in enumerate(p) if value <= 0)
+        width = x[out - 1] + (x[out] - x[out - 1]) * p[out - 1] / (p[out - 1] - p[out])
+        inner = [(u * u, v * v) for u, v in zip(x, p) if u < 0.6 * width]
+        mean = [sum(column) / len(inner) for column in zip(*inner)]
+        slope = sum((u - mean[0]) * (v - mean[1]) for u, v in inner) / sum((u - mean[0]) ** 2 for u, _ in inner)
+        peak = math.sqrt(mean[1] - slope * mean[0])
+        what = f"a/{cylinder} on a/{block}"
+        report(f"{what}: half width [m]", f"{width:.6f}", "0.015451 +- 3 %", within(width, 0.015451, 0.03))
+        report(f"{what}: peak pressure [MPa]", f"{peak / 1e6:.3f}", "41.203 +- 3 %", within(peak, 41.2026e6, 0.03))
+
+
 CASES = {"incline": incline, "creep": creep_of_paper_rule, "stick": stick, "incline_paper": incline_paper,
-         "collision": collision, "bounces": bounces, "rest": rest, "same_bits": same_bits}
+         "collision": collision, "bounces": bounces, "rest": rest, "same_bits": same_bits,
+         "cantilever": cantilever, "bar": bar, "contact_patch": contact_patch, "hertz": hertz}
 
 
 def main():

@@ -144,3 +144,21 @@ TEST_CASE("an interrupted run stops between outputs and goes on", "[simulation][
   CHECK(broken.time() == 0.1);
   CHECK(broken.state_hash() == whole.state_hash());
 }
+
+TEST_CASE("a stage between two outputs begins on time and every output is still met",
+          "[simulation][stages]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1);
+  text.time = R"({"end": 1, "dt": 0.01})";
+  text.output = R"({"history": 0.25})";
+  text.rest = R"("stages": [{"name": "pull", "from": 0.4, "set": {"/gravity": [2, 0]}}],)";
+  const Scene scene = text.read();
+  Simulation simulation(scene, {});
+  std::vector<double> times;
+  while (simulation.advance()) times.push_back(simulation.time());
+  CHECK(times == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
+  const Motion motion = simulation.body_motion(0);
+  CHECK(motion.velocity.x ==
+        Approx(2 * 0.6).epsilon(0.01));  // the step that meets it is shared by both stages
+  CHECK(motion.displacement.x == Approx(0.6 * 0.6).epsilon(0.02));
+}

@@ -287,6 +287,7 @@ class DistributedContact {
       history = {0, 0, 0, contact_length_, centre.x, centre.y, 0, history.strip_a, history.strip_b};
       return {0, 0};
     }
+    if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(limit, batch.dt);
     const FrictionInput input{stiffness / load * contact_length_,
                               batch.hold_stick ? std::numeric_limits<double>::infinity() : limit,
                               contact_length_, slip_increment_};
@@ -307,6 +308,30 @@ class DistributedContact {
       if (part != 0) tangential_loads(sink, cell, part);
     }
     return force * tangent_;
+  }
+
+  /// The slip that the tangential loads work through: of the bodies at the points where they act, by their
+  /// shares. With the mean over the arcs (Eq. 38) a body that strains would gain or lose energy in friction.
+  void measure_slip_of_loads(double limit, double dt) {
+    double velocity = 0;
+    for (const Cell& cell : cells_) {
+      const Piece& master = cell.overlap->piece[cell.master];
+      const Piece& slave = cell.overlap->piece[1 - cell.master];
+      double total = 0, on_slave = 0;
+      for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
+      for (std::uint32_t s = cell.segment_start; total > 0 && s < cell.segment_end; ++s) {
+        on_slave +=
+            segments_[s].share() / total * slave.working_velocity(segments_[s].side, cell.foot, tangent_);
+      }
+      if (!(total > 0))
+        on_slave = slave.working_velocity(any_real_side(*cell.overlap, slave), cell.foot, tangent_);
+      const double on_master =
+          dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.foot)));
+      const double share = cell.interface.friction * cell.load / limit;
+      velocity += (cell.master == 0 ? share : -share) * (on_slave - on_master);
+    }
+    slip_velocity_ = velocity;
+    slip_increment_ = velocity * dt;
   }
 
   void tangential_loads(const LoadSink& sink, const Cell& cell, double force_on_b) const {

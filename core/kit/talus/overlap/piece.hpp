@@ -44,6 +44,14 @@ class Piece {
   double depth(std::uint32_t side, Point p) const { return cross(tangent(side), p - at(side)); }
   /// Position of the foot of a point along a side: 0 at its start, 1 at its end.
   double lever(std::uint32_t side, Point p) const { return dot(tangent(side), p - at(side)) / length(side); }
+  /// Rate at which a force of 1 N/m in `direction` works that LoadSink::at_point puts at a point behind a
+  /// side: of a piece that moves rigidly, the velocity of that point along the direction.
+  double working_velocity(std::uint32_t side, Point point, Point direction) const {
+    const Point stretch = velocity(next(side)) - velocity(side);
+    const double couple = depth(side, point) * cross(-1.0 * normal(side), direction);
+    return dot(direction, velocity_at(side, lever(side, point))) -
+           couple / length(side) * dot(normal(side), stretch);
+  }
   Point velocity_at(std::uint32_t side, double lever_arm) const {
     return (1 - lever_arm) * velocity(side) + lever_arm * velocity(next(side));
   }
