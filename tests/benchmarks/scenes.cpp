@@ -32,6 +32,10 @@ std::string generate(const std::string& generator) {
 
 }  // namespace
 
+Scene scene_of_text(const std::string& text) {
+  return read_scene_text(text, "benchmark", registry());
+}
+
 Scene scene_of(const Load& load) {
   ReadOptions options;
   options.overrides = {{"/contact/model", load.law}};

@@ -16,4 +16,7 @@ struct Load {
 /// The scene of a load, with no end in sight. Throws std::runtime_error when the script fails.
 Scene scene_of(const Load& load);
 
+/// A scene given as its text.
+Scene scene_of_text(const std::string& text);
+
 }  // namespace talus::benchmarks

@@ -1,5 +1,6 @@
 // Time per block and step of whole runs, as users meet them. See README.md beside.
 
+#include "lattice.hpp"
 #include "scenes.hpp"
 
 #include "simulation/simulation.hpp"
@@ -90,6 +91,7 @@ int main(int argc, char** argv) {
       }
     }
   }
+  benchmarks::register_lattices();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace talus::benchmarks {
+
+void register_lattices();
+
+}  // namespace talus::benchmarks
