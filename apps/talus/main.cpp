@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "model/laid_cover.hpp"
 #include "output/input_error.hpp"
 #include "scene/read.hpp"
 #include "scene_options.hpp"
@@ -123,6 +124,8 @@ int guarded(const Words& words) {
   } catch (const SceneError& problem) {
     return report(problem, exit_code::bad_input);
   } catch (const InputError& problem) {
+    return report(problem, exit_code::bad_input);
+  } catch (const BodyRefused& problem) {
     return report(problem, exit_code::bad_input);
   } catch (const PluginError& problem) {
     return report(problem, exit_code::plugin_refused);

@@ -36,6 +36,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, int threads, 
 
 void ContactStage::set_interfaces(const std::vector<std::vector<double>>& values) {
   if (!law_) return;
+  former_interface_values_.swap(interface_values_);
   interface_values_.clear();
   for (std::vector<double> row : values) {
     law_->prepare_interface(row.data());
@@ -136,6 +137,17 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
   while (make_room()) call_law(model, motion, conditions);
   history_.swap(next_history_);
   return gather(model, motion);
+}
+
+double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
+                                            const Conditions& conditions) {
+  if (!law_ || pairs_.empty()) return 0;
+  interfaces_.value = former_interface_values_.data();
+  call_law(model, motion, conditions);
+  interfaces_.value = interface_values_.data();
+  double sum = 0;
+  for (const PairReport& report : pair_reports_) sum += report.stored + report.slip_loss;
+  return sum;
 }
 
 void ContactStage::call_law(const Model& model, const MotionState& motion, const Conditions& conditions) {

@@ -42,6 +42,10 @@ class ContactStage {
   /// Evaluates the law on all pairs and adds the loads to the bodies' forces.
   ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
 
+  /// What the contacts would hold and have lost, J/m, with the parameters before the last set_interfaces();
+  /// no step is taken.
+  double with_former_interfaces(const Model& model, const MotionState& motion, const Conditions& conditions);
+
   std::uint64_t searches() const { return searches_; }
   std::span<const BodyPair> pairs() const { return pairs_; }
   std::span<const ContactReport> reports() const { return reports_; }
@@ -56,7 +60,7 @@ class ContactStage {
   double master_share(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
-  std::vector<double> interface_values_;
+  std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
   std::vector<double> priority_;  ///< [body], empty with symmetric roles
   std::vector<char> fixed_;       ///< [body]

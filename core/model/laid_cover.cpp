@@ -143,7 +143,7 @@ LaidCover lay_cover(const SceneBody& scene_body, const Body& body) {
   builder->build(given.shape, sink);
   const char* name = scene_body.cover.component->component->name;
   if (!sink.refusal.empty())
-    throw PluginError(
+    throw BodyRefused(
         fmt::format("body '{}' cannot have the cover '{}': {}", scene_body.name, name, sink.refusal));
   if (const std::string fault = fault_of(sink.cover, given); !fault.empty()) {
     throw PluginError(fmt::format("{}: cover '{}' does not fit body '{}': {}",

@@ -7,6 +7,7 @@
 #include <talus/cover_builder.hpp>
 
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,14 @@ struct LaidCover {
   std::vector<Steadied> steadied;
 };
 
-/// Calls the cover builder of a body. Throws PluginError when it refuses or makes what is no cover of it.
+/// A body of the scene that cannot have what the scene asks for, in words for the user.
+class BodyRefused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Calls the cover builder of a body. Throws BodyRefused when it refuses, PluginError when it makes what is
+/// no cover of it.
 LaidCover lay_cover(const SceneBody& scene_body, const Body& body);
 
 }  // namespace talus

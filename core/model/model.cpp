@@ -4,6 +4,8 @@
 #include "model/laid_cover.hpp"
 #include "model/strips.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -97,6 +99,12 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
       body.kinematics = Kinematics::covered;
       add_covered_body(model, scene_body, index, cover, density);
     }
+  }
+  if (scene_body.self_contact && !model.covered(index)) {
+    throw BodyRefused(
+        fmt::format("body '{}' has \"self_contact\", but is one element, which cannot meet itself: "
+                    "take the cover \"hexagonal\" or \"mesh\"",
+                    scene_body.name));
   }
   if (model.covered(index)) {
     add_strips(model, index);

@@ -134,7 +134,7 @@ struct Model {
   Carrier carrier(const Element& element, Vec2 reference) const;
 };
 
-/// Throws PluginError when a cover builder refuses a body or makes what is no cover.
+/// Throws BodyRefused when a body cannot have its cover, PluginError when a builder makes what is no cover.
 Model build_model(const Scene& scene);
 
 }  // namespace talus

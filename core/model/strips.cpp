@@ -10,10 +10,10 @@
 namespace talus {
 namespace {
 
-constexpr double depth_share = 0.4;  ///< of the side of an equilateral triangle as large as the element's
-constexpr double way_to_opposite = 0.45;     ///< of the distance to the opposite side
-constexpr double longest_miter = 3;          ///< of the depth, along the bisector of a sharp corner
-constexpr double smallest_turn = 0.1;        ///< rad, between sides that compete past a short one
+constexpr double depth_share = 0.4;    ///< of the side of an equilateral triangle as large as the element's
+constexpr double safe_share = 0.9;     ///< of the depth at which other parts of the boundary are as near
+constexpr double longest_miter = 3;    ///< of the depth, along the bisector of a sharp corner
+constexpr double smallest_turn = 0.1;  ///< rad, between sides that compete past a short one
 constexpr std::size_t most_competitors = 4;  ///< per strip and direction
 
 double dot(Vec2 p, Vec2 q) {
@@ -80,25 +80,50 @@ void find_competitors(const Model& model, std::uint32_t side, double depth, bool
   });
 }
 
-/// How far the body reaches behind a side, seen from three of its points.
-double distance_to_opposite(const Model& model, const Body& body, std::uint32_t side) {
+double distance_to_side(Vec2 point, const ReferenceSide& side) {
+  const Vec2 way = minus(point, side.start);
+  const Vec2 foot = along(side.start, std::clamp(dot(way, side.tangent), 0.0, side.length), side.tangent);
+  const Vec2 apart = minus(point, foot);
+  return std::sqrt(dot(apart, apart));
+}
+
+/// Depth behind a side at which another part of the boundary is as near, seen from three points of the side:
+/// to the lines of other sides where they are met, and to every corner. Sides that compete with it have their
+/// say later.
+double equal_depth(const Model& model, const Body& body, std::uint32_t side, const std::vector<char>& near) {
   const ReferenceSide own = reference_side(model, side);
   const Vec2 normal = inward(own.tangent);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const double share : {0.1, 0.5, 0.9}) {
-    const Vec2 from = along(own.start, share * own.length, own.tangent);
-    for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
-      if (other == side || other == model.next_side[side] || other == model.previous_side[side]) continue;
-      const ReferenceSide there = reference_side(model, other);
-      const double facing = dot(inward(there.tangent), normal);
-      if (facing >= 0) continue;
-      const double distance = dot(minus(there.start, from), inward(there.tangent)) / facing;
-      if (!(distance > 0) || distance >= nearest) continue;
-      const double place = dot(minus(along(from, distance, normal), there.start), there.tangent);
-      if (place >= 0 && place <= there.length) nearest = distance;
+  const double rounding = 1e-9 * model.side_size[side];  // faces of a crack coincide
+  double least = std::numeric_limits<double>::infinity();
+  const auto is_tip = [&](std::uint32_t before, std::uint32_t after) {
+    const Vec2 p = reference_side(model, before).tangent, q = reference_side(model, after).tangent;
+    return dot(p, q) < 0 && cross(p, q) < 1e-6;
+  };
+  const bool tip_at_start = is_tip(model.previous_side[side], side);
+  const bool tip_at_end = is_tip(side, model.next_side[side]);
+  for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
+    if (near[other - body.side_begin] != 0) continue;
+    const ReferenceSide there = reference_side(model, other);
+    const Vec2 other_normal = inward(there.tangent);
+    const double opening = 1 - dot(normal, other_normal);
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const Vec2 from = along(own.start, share * own.length, own.tangent);
+      const double behind = dot(minus(from, there.start), other_normal);
+      if (!(behind > rounding) || !(opening > 1e-6)) continue;
+      const double depth = behind / opening;
+      const double place = dot(minus(along(from, depth, normal), there.start), there.tangent);
+      if (place >= 0 && place <= there.length) least = std::min(least, depth);
     }
+    if (tip_at_start) least = std::min(least, distance_to_side(own.start, there) / 2);
+    if (tip_at_end) least = std::min(least, distance_to_side(own.end, there) / 2);
+    if (near[model.previous_side[other] - body.side_begin] != 0) continue;
+    const Vec2 way = minus(there.start, own.start);
+    const double behind = dot(way, normal), along_side = dot(way, own.tangent);
+    if (!(behind > rounding)) continue;
+    const double past = std::max({0.0, -along_side, along_side - own.length});
+    least = std::min(least, (behind * behind + past * past) / (2 * behind));
   }
-  return nearest;
+  return least;
 }
 
 /// Inner bisector at the vertex between two sides, scaled to a depth of 1 behind both, cut short at sharp
@@ -106,13 +131,15 @@ double distance_to_opposite(const Model& model, const Body& body, std::uint32_t 
 Vec2 miter(Vec2 before, Vec2 after) {
   const Vec2 sum{-before.y - after.y, before.x + after.x};
   const double squared = dot(sum, sum);  // 4 cos² of half the turn
-  if (squared > 4 / (longest_miter * longest_miter)) return {2 * sum.x / squared, 2 * sum.y / squared};
-  Vec2 direction = unit(sum);
-  if (squared < 1e-12) {  // a needle's point or a crack's tip
-    const double sign = cross(before, after) > 0 ? 1 : -1;
-    direction = unit({sign * (after.x - before.x), sign * (after.y - before.y)});
+  const double longest = cross(before, after) > 0 ? longest_miter : std::sqrt(2.0);
+  if (squared > 4 / (longest * longest)) return {2 * sum.x / squared, 2 * sum.y / squared};
+  const double turn = cross(before, after);
+  if (turn > 1e-6) {  // a sharp corner
+    const Vec2 direction = unit(squared > 1e-12 ? sum : minus(after, before));
+    return {longest_miter * direction.x, longest_miter * direction.y};
   }
-  return {longest_miter * direction.x, longest_miter * direction.y};
+  // Around the tip of a crack, no farther than behind its faces.
+  return squared > 1e-12 ? unit(sum) : unit(minus(before, after));
 }
 
 using Corners = std::array<Vec2, 4 + 2 * most_competitors + 1>;
@@ -154,12 +181,15 @@ void add_strips(Model& model, std::uint32_t index) {
   Body& body = model.bodies[index];
   std::vector<double> depths;
   for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
-    const double size = model.side_size[side];
-    const double depth =
-        std::min(depth_share * size, way_to_opposite * distance_to_opposite(model, body, side));
+    const double wanted = depth_share * model.side_size[side];
     std::vector<std::uint32_t> competitors;
-    find_competitors(model, side, depth, true, competitors);
-    find_competitors(model, side, depth, false, competitors);
+    find_competitors(model, side, wanted, true, competitors);
+    find_competitors(model, side, wanted, false, competitors);
+    std::vector<char> near(body.side_end - body.side_begin, 0);
+    near[side - body.side_begin] = near[model.next_side[side] - body.side_begin] = 1;
+    near[model.previous_side[side] - body.side_begin] = 1;
+    for (const std::uint32_t competitor : competitors) near[competitor - body.side_begin] = 1;
+    const double depth = std::min(wanted, safe_share * equal_depth(model, body, side, near));
     depths.push_back(depth);
     const std::size_t corners = 4 + competitors.size();
     for (std::size_t c = 0; c < corners; ++c) {

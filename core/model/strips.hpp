@@ -14,8 +14,8 @@ void add_strips(Model& model, std::uint32_t body);
 /// Strips follow the boundary; corners 0 and 1 of each must be in place. The other corners move with these.
 void shape_strips(const Model& model, std::uint32_t body, MotionState& motion);
 
-/// Whether a side lies so near to that of a strip, along a stretch without reflex corner, that their strips only
-/// meet inside the body.
+/// Whether a side lies so near to that of a strip, along a stretch without reflex corner, that their strips
+/// only meet inside the body.
 bool hang_together(const Model& model, const Strip& strip, std::uint32_t side);
 
 }  // namespace talus

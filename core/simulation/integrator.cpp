@@ -133,9 +133,7 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
     middle = velocity_at_step(before, now, conditions);
     work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
     if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
-    work.external_work +=
-        body.mass * conditions.dt_behind *
-        (conditions.gravity.x * before.velocity.x + conditions.gravity.y * before.velocity.y);
+    work.external_work += body.mass * gravity_work(conditions, before.velocity);
     if (conditions.damping > 0) {
       const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);
       work.damping_loss += power * conditions.dt_behind / 2;

@@ -19,10 +19,10 @@ struct AccelerationWork {
 };
 
 struct StepConditions {
-  Vec2 gravity;
-  double damping;              ///< 1/s, mass-proportional
-  double dt_behind, dt_ahead;  ///< s; the velocity is updated over their mean (Eq. 23)
-  bool supports_driven;        ///< false: driven supports stand still (settling)
+  Vec2 gravity, gravity_behind;  ///< m/s², at t_n and at t_{n−1}
+  double damping;                ///< 1/s, mass-proportional
+  double dt_behind, dt_ahead;    ///< s; the velocity is updated over their mean (Eq. 23)
+  bool supports_driven;          ///< false: driven supports stand still (settling)
 };
 
 /// Velocities at t_n.

@@ -6,7 +6,7 @@
 namespace talus {
 
 void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-                        const AccelerationWork& work) {
+                        const AccelerationWork& work, double interface_work) {
   EnergyLedger& l = ledger_;
   l.kinetic = work.kinetic;
   l.strain = strain.stored;
@@ -20,7 +20,7 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     l.contact_damping_loss += contact.damping_loss;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += strain.dissipated;
-    l.external_work += work.external_work + work_ahead_ + loads.work();
+    l.external_work += work.external_work + work_ahead_ + loads.work() + interface_work;
   }
   loads.reset_work();
   damping_ahead_ = work.damping_loss_ahead;
@@ -40,7 +40,8 @@ void LedgerKeeper::lose_kinetic() {
 }
 
 double LedgerKeeper::residual_share() const {
-  return ledger_.throughput > 0 ? std::abs(ledger_.residual) / ledger_.throughput : 0;
+  const double scale = std::max(ledger_.throughput, floor_);
+  return scale > 0 ? std::abs(ledger_.residual) / scale : 0;
 }
 
 }  // namespace talus

@@ -11,15 +11,23 @@ namespace talus {
 /// Books the energies of each step and judges the balance.
 class LedgerKeeper {
  public:
-  /// At t_n, once all parts of the step are known.
+  /// At t_n, once all parts of the step are known. `interface_work`: what a stage did by changing the
+  /// parameters of closed contacts.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-            const AccelerationWork& work);
+            const AccelerationWork& work, double interface_work);
 
   /// All velocities were just set to zero: their energy counts as taken by global damping.
   void lose_kinetic();
 
   /// Starts anew: what is stored now becomes the capital of t = 0.
-  void reset() { *this = LedgerKeeper{}; }
+  void reset() {
+    const double floor = floor_;
+    *this = LedgerKeeper{};
+    floor_ = floor;
+  }
+
+  /// Energy below which nothing is judged, J/m: what rounding makes of a scene at rest.
+  void set_floor(double floor) { floor_ = floor; }
 
   const EnergyLedger& ledger() const { return ledger_; }
   double residual_share() const;  ///< of the throughput; 0 while nothing has moved
@@ -28,6 +36,7 @@ class LedgerKeeper {
   EnergyLedger ledger_;
   double initial_ = 0;  ///< J/m, kinetic and stored at t = 0
   double damping_ahead_ = 0, work_ahead_ = 0;
+  double floor_ = 0;
   bool started_ = false;
 };
 

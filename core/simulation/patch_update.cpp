@@ -78,8 +78,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                  before[i].y + share * (after[i].y - before[i].y)};
 
   work.kinetic += kinetic_at_step(model, mass, index, conditions, before, middle, after);
-  work.external_work +=
-      conditions.dt_behind * (conditions.gravity.x * momentum.x + conditions.gravity.y * momentum.y);
+  work.external_work += gravity_work(conditions, momentum);
   if (conditions.damping > 0) {
     const double power = conditions.damping * mass.product(model, index, middle, middle);
     work.damping_loss += power * conditions.dt_behind / 2;

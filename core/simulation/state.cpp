@@ -40,6 +40,7 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
       last_turn(model.bodies.size()) {
   summary.critical_dt = critical.dt;
   summary.warnings = scene.warnings;
+  ledger.set_floor(energy_floor());
 }
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
@@ -79,12 +80,10 @@ void Simulation::State::forces() {
   for (Vec2& force : motion.patch_force) force = {};
   motion.move_boundary(model);  // Eq. 11
   speeds = motion.speeds();
-  const bool hold_stick = settling && scene.settle->hold_stick;
   contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
-  contact_totals =
-      contacts.evaluate(model, motion, {dt_behind, hold_stick, fresh || settling});  // Eqs. 28–48
-  strain_energy = deformation.apply(model, motion, dt_behind);                       // Eq. 18
-  loads.apply(motion, settling ? 0 : time, dt_behind);                               // Eqs. 19–20
+  const double interface_work = evaluate_contacts();               // Eqs. 28–48
+  strain_energy = deformation.apply(model, motion, dt_behind);     // Eq. 18
+  loads.apply(motion, settling ? 0 : time, dt_behind);             // Eqs. 19–20
   const Vec2 pull = gravity();
   if (settling && scene.settle->until) {
     unbalanced_share =
@@ -93,14 +92,40 @@ void Simulation::State::forces() {
   const Damping& how = settling ? scene.settle->damping : stage.damping;
   const double damping = relaxation.damping(how, model, motion, dt_behind);
   const AccelerationWork work =
-      accelerate(model, mass, stage.supports, {pull, damping, dt_behind, plan.dt, !settling}, motion,
+      accelerate(model, mass, stage.supports,
+                 {pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling}, motion,
                  at_time);  // Eqs. 23–24
-  ledger.book(contact_totals, strain_energy, loads, work);
+  ledger.book(contact_totals, strain_energy, loads, work, interface_work);
+  last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
     motion.stop();
     ledger.lose_kinetic();
   }
   fresh = false;
+}
+
+/// Returns the work of a stage that changes the parameters of closed contacts: what they hold and have just
+/// lost with the new ones, less with the old ones.
+double Simulation::State::evaluate_contacts() {
+  const bool hold_stick = settling && scene.settle->hold_stick;
+  const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling};
+  const double before = interfaces_changed ? contacts.with_former_interfaces(model, motion, conditions) : 0;
+  contact_totals = contacts.evaluate(model, motion, conditions);
+  const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
+  interfaces_changed = false;
+  return work;
+}
+
+/// What rounding makes of a body at rest: its weight by 1e-12 of its width, and motion by 1e-14 of its width
+/// in a critical step.
+double Simulation::State::energy_floor() const {
+  const double pull = std::sqrt(scene.gravity.x * scene.gravity.x + scene.gravity.y * scene.gravity.y);
+  double floor = 0;
+  for (const Body& body : model.bodies) {
+    const double speed = std::isfinite(critical.dt) ? 1e-14 * body.width / critical.dt : 0;
+    floor += body.mass * (1e-12 * pull * body.width + speed * speed);
+  }
+  return floor;
 }
 
 /// Of the frame that moves with the ground.
@@ -119,6 +144,7 @@ void Simulation::State::begin_due_stages() {
   while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
     stage = scene.stages[stages_begun++].settings;
     contacts.set_interfaces(stage.interface_values);
+    interfaces_changed = true;
     loads.replace(Loads(scene, stage, model));
     critical = critical_step(scene, stage, model, contacts);
     summary.critical_dt = std::min(summary.critical_dt, critical.dt);
@@ -193,6 +219,15 @@ void Simulation::State::check_step() const {
   const Body &a = model.bodies[totals.deepest_a], &b = model.bodies[totals.deepest_b];
   const double width = std::min(a.width, b.width), visible = 0.9 * std::min(a.contact_depth, b.contact_depth);
   if (!(totals.penetration <= std::min(scene.limits.penetration * width, visible))) {
+    if (visible < scene.limits.penetration * width) {
+      throw NumericalTrouble(
+          fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than the "
+                      "{:.3g} m behind the "
+                      "boundary of a body of many elements that contact can see; raise normal_stiffness of "
+                      "their interface, "
+                      "take a larger size of elements or a smaller time step, or part them at the start",
+                      time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration, visible));
+    }
     throw NumericalTrouble(
         fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.0f} % "
                     "of the smaller width "

@@ -49,10 +49,12 @@ struct Simulation::State {
   std::vector<BodyMotion> start;         ///< motion at t = 0, which displacements count from
   std::vector<Vec2> start_displacement;  ///< [patch] likewise
   std::size_t stages_begun = 0;
-  double unbalanced_share = 0;     ///< unbalanced over applied force, while settling
-  std::vector<double> rotation;    ///< rad since t = 0, followed through full turns
-  std::vector<Matrix2> last_turn;  ///< where `rotation` was brought up to date
-  double turned = 0;               ///< rad, bound of what any body has turned since then
+  bool interfaces_changed = false;  ///< by a stage, for the coming evaluation of contacts
+  Vec2 last_gravity;                ///< m/s², at t_{n−1}
+  double unbalanced_share = 0;      ///< unbalanced over applied force, while settling
+  std::vector<double> rotation;     ///< rad since t = 0, followed through full turns
+  std::vector<Matrix2> last_turn;   ///< where `rotation` was brought up to date
+  double turned = 0;                ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;
   ContactTotals contact_totals;
@@ -71,6 +73,8 @@ struct Simulation::State {
   void begin_due_stages();
   Vec2 gravity() const;
   bool settled() const;
+  double evaluate_contacts();
+  double energy_floor() const;
   void remember_deepest();
   void check_step() const;
   void check_balance();

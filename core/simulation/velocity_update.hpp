@@ -22,6 +22,12 @@ inline double impose(const std::optional<double>& wanted, double mass, double va
   return target;
 }
 
+/// Work of gravity per mass over the step behind, by the trapezoidal rule, J/kg.
+inline double gravity_work(const StepConditions& conditions, Vec2 velocity) {
+  const Vec2 &now = conditions.gravity, &before = conditions.gravity_behind;
+  return conditions.dt_behind * ((now.x + before.x) * velocity.x + (now.y + before.y) * velocity.y) / 2;
+}
+
 /// Share of v₊ in the velocity at t_n; one half for equal steps.
 inline double share_of_after(const StepConditions& conditions) {
   return conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);

@@ -51,11 +51,12 @@ def scene(size):
 // they would cut {2 * (RADIUS + THICKNESS / 2) - HEIGHT:g} m into each other; they touch at u = {START - math.sqrt((2 * RADIUS + THICKNESS) ** 2 - HEIGHT**2):.2f} m. No gravity, no damping of any kind. The upper beam
 // starts with the speed of its tops, so that the start makes no wave.
 // Right answer: no closed form. The snap (largest speed of the lower crest after it gave way) comes at about 15 m
-// without friction, at about 16 m with 10 degrees; then friction takes the energy of the motion, while without it
-// the beams go on swinging. u = 1 m/s t. The ledger must close; docs/beams_and_blocks.md has what was measured.
+// without friction, at about 16 m with 10 degrees; then friction takes the energy of the motion bit by bit, while
+// without it the beams go on swinging. u = 1 m/s t. The ledger must close; docs/beams_and_blocks.md has what was measured.
 //
 //   talus run scenes/beams.json --out beams
 //   talus compare scenes/beams.json --vary /interfaces/0/friction_angle=0,10 --out beams_friction
+//   talus run scenes/beams.json --set /materials/beam/damping_time=5e-2 --out beams_damped      comes close to rest
 {{
   "talus": 1,
   "title": "Two curved elastic beams",

@@ -132,3 +132,33 @@ TEST_CASE("an energy that passes over joints of either boundary has no jump", "[
   for (int i = 0; i <= 1000; ++i)
     CHECK(pressed.at(-0.01, -0.2 + 4e-4 * i + 1e-9).stored == Approx(due).epsilon(1e-9));
 }
+
+TEST_CASE("the halves of a body that was cut anywhere meet as two bodies do", "[contact][strips]") {
+  // Two lines through a unit square, one of them oblique, one from corner to corner.
+  for (const char* line :
+       {"[[-0.1, 0.3], [1.2, 0.4]]", "[[-0.1, -0.1], [1.1, 1.1]]", "[[0.2, 0.5], [0.7, 0.52]]"}) {
+    for (const double size : {0.3, 0.1, 0.07}) {
+      INFO(line << ' ' << size);
+      WorkingScene text;
+      text.gravity = "[0, -10]";
+      text.bodies = box("table", -3, -1, 3, 0, R"("fixed": true)") + ", " +
+                    box("a", 0, 0, 1, 1,
+                        fmt::format(R"("cover": {{"model": "hexagonal", "size": {}}},
+                                       "discontinuities": [{{"points": {}}}])",
+                                    size, line));
+      const Scene scene = text.read();
+      const Model model = build_model(scene);
+      MotionState motion(model);
+      ContactStage contacts(scene, model, 1, true);
+      contacts.find_pairs(model, motion, 1e9);
+      const ContactTotals untouched = contacts.evaluate(model, motion, {0, true, false});
+      CHECK(untouched.penetration <= 1e-9);
+      for (const Strip& strip : model.strips) {
+        const BoundarySide& side = model.sides[strip.side];
+        const double length = std::hypot(side.end.reference.x - side.start.reference.x,
+                                         side.end.reference.y - side.start.reference.y);
+        CHECK(strip.depth >= 0.02 * std::min(size, length));
+      }
+    }
+  }
+}
