@@ -1,15 +1,43 @@
-# talus_add_plugin(name sources...): a shared library that talus loads. Hidden visibility, nothing undefined,
-# the one exported symbol is `talus_library`.
-function(talus_add_plugin name)
-  add_library(${name} MODULE ${ARGN})
-  target_link_libraries(${name} PRIVATE talus_kit)
-  set_target_properties(${name} PROPERTIES
+# Instruction sets a plugin is compiled for beside the baseline of the machine's kind. The program loads the best
+# that the machine has: lib/talus/plugins/<level>/lib<name>.so in place of lib/talus/plugins/lib<name>.so.
+set(talus_simd_levels)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  set(talus_simd_levels avx2 avx512)
+  set(talus_flags_avx2 -march=x86-64-v3)
+  set(talus_flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+endif()
+
+function(talus_add_plugin_library target name folder)
+  add_library(${target} MODULE ${ARGN})
+  target_link_libraries(${target} PRIVATE talus_kit)
+  set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
-    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/talus/plugins)
+    OUTPUT_NAME ${name}
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/talus/plugins/${folder})
+  # Results stay those of IEEE 754; loops may be vectorised that set errno or flags nobody reads. Symbols unique to
+  # the process would make the levels share code.
+  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math
+    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   # The sanitizers' own functions are in the program, so their users are undefined until they are loaded.
   if(NOT TALUS_SANITIZE)
-    target_link_options(${name} PRIVATE -Wl,--no-undefined)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)
   endif()
-  install(TARGETS ${name} LIBRARY DESTINATION lib/talus/plugins)
+  install(TARGETS ${target} LIBRARY DESTINATION lib/talus/plugins/${folder})
+endfunction()
+
+# talus_add_plugin(name [SIMD] sources...): a shared library that talus loads. Hidden visibility, nothing undefined,
+# the one exported symbol is `talus_library`. SIMD builds it for each instruction set, too: worth it for what works
+# in every step.
+function(talus_add_plugin name)
+  cmake_parse_arguments(PARSE_ARGV 1 plugin "SIMD" "" "")
+  talus_add_plugin_library(${name} ${name} "" ${plugin_UNPARSED_ARGUMENTS})
+  if(NOT plugin_SIMD)
+    return()
+  endif()
+  foreach(level IN LISTS talus_simd_levels)
+    talus_add_plugin_library(${name}.${level} ${name} ${level} ${plugin_UNPARSED_ARGUMENTS})
+    target_compile_options(${name}.${level} PRIVATE ${talus_flags_${level}})
+    add_dependencies(${name} ${name}.${level})
+  endforeach()
 endfunction()

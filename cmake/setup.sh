@@ -7,7 +7,7 @@ talus_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libb
 install_missing_packages() {
   if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
     cat >&2 <<TEXT
-This is no Debian, so nothing was installed. Please install a C++20 compiler with OpenMP, CMake 3.25, Ninja,
+This is no Debian, so nothing was installed. Please install a C++20 compiler, CMake 3.25, Ninja,
 pkg-config, Python 3, and the headers of Eigen 3.4, Boost 1.74 (DLL, Program_options), nlohmann-json 3.11, fmt 9,
 Catch2 2.13, zlib, xxHash and, for the benchmarks, Google Benchmark. Debian 12 calls them:
   ${talus_packages[*]}

@@ -88,6 +88,8 @@ class VertexEdge final : public ContactModel {
     read_history(batch, pair, work.old);
     find_contacts(batch, pair, work);
     const overlap::LoadSink sink{loads.fx, loads.fy};
+    if (!work.found.empty()) sink.clear(batch, pair);
+    report = {};
     for (const SpringHistory& old : work.old) {
       report.slip_loss += old.stored;  // what the contacts that live on still hold is taken off again below
     }
@@ -98,7 +100,7 @@ class VertexEdge final : public ContactModel {
       if (!act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report)) continue;
       if (count < pair.slot_capacity) {
         write(history, loads.history + (pair.slot_start + count) * spring_doubles);
-        loads.reports[pair.slot_start + count] = seen;
+        if (loads.reports != nullptr) loads.reports[pair.slot_start + count] = seen;
       }
       ++count;
     }

@@ -1,8 +1,11 @@
 #include "contact/contact_stage.hpp"
 
+#include "geometry/vanishing_depth.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace talus {
 namespace {
@@ -10,19 +13,37 @@ namespace {
 /// Skin as a share of the mean width of the moving bodies: at the speeds of the shipped scenes a search
 /// serves some 20 to 100 steps, and few pairs are candidates that do not touch.
 constexpr double skin_share = 0.1;
-constexpr std::uint32_t first_capacity = 2;     ///< contacts of a new pair before room must be made
-constexpr std::uint32_t pairs_per_thread = 64;  ///< fewer than this many pairs are not worth a second thread
+constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
+/// Share of the vanishing depth that a law may count on until the next search: bodies strain meanwhile.
+constexpr double clear_share = 0.9;
+constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
+constexpr std::size_t body_chunk = 64;
 
 void noop(void* /*object*/) noexcept {}
 
+/// Corners of a body that is one convex piece of one surface class, else 0.
+std::uint32_t plain_corners(const Model& model, const Body& body) {
+  if (body.piece_end != body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) return 0;
+  const std::uint32_t surface = model.surface[body.corner_begin];
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    if (model.surface[c] != surface || surface == internal_side) return 0;
+  }
+  return body.corner_end - body.corner_begin;
+}
+
 }  // namespace
 
-ContactStage::ContactStage(const Scene& scene, const Model& model, int threads, bool neighbour_skin)
+ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& workers, bool neighbour_skin,
+                           SimdLevel level)
     : law_(nullptr, noop),
-      threads_(threads),
+      workers_(workers),
+      kernels_(kernels::block_kernels(level)),
       skin_(neighbour_skin ? skin_share * model.mean_width : 0),
       search_(model) {
-  for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
+  for (const Body& body : model.bodies) {
+    fixed_.push_back(body.kinematics == Kinematics::fixed);
+    plain_corners_.push_back(plain_corners(model, body));
+  }
   if (scene.contact.component == nullptr) return;
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   history_doubles_ = law_->doubles_per_contact();
@@ -60,8 +81,17 @@ void ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   if (slack_ > 0) return;
   search_.find(model, motion, skin_, candidates_);
   rebuild_pairs(model);
+  measure_clear_depths(model, motion);
   slack_ = skin_ / 2;
   ++searches_;
+}
+
+void ContactStage::measure_clear_depths(const Model& model, const MotionState& motion) {
+  clear_depth_.resize(model.piece_body.size());
+  for (std::size_t p = 0; p < clear_depth_.size(); ++p) {
+    const std::uint32_t begin = model.piece_start[p], end = model.piece_start[p + 1];
+    clear_depth_[p] = clear_share * vanishing_depth(&motion.corners[begin], end - begin);
+  }
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {
@@ -81,7 +111,10 @@ void ContactStage::rebuild_pairs(const Model& model) {
       const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back({candidate.body_a, candidate.body_b, first, first, b.centre.x - a.centre.x,
                         b.centre.y - a.centre.y, master_share(candidate.body_a, candidate.body_b),
-                        reduced_mass, 0, 0, 0});
+                        reduced_mass, 0, 0, 0,
+                        plain_corners_[candidate.body_a] == 0 || plain_corners_[candidate.body_b] == 0
+                            ? 0
+                            : std::max(plain_corners_[candidate.body_a], plain_corners_[candidate.body_b])});
     }
     piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, loads});
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
@@ -91,6 +124,8 @@ void ContactStage::rebuild_pairs(const Model& model) {
   load_x_.resize(loads);
   load_y_.resize(loads);
   pair_reports_.resize(pairs_.size());
+  chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
+  sort_loads_by_body(model);
 
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);
@@ -131,12 +166,33 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
   reports_.resize(slots);
 }
 
+/// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
+void ContactStage::sort_loads_by_body(const Model& model) {
+  const auto visit = [&](const auto& take) {
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      for (std::uint32_t p = pairs_[i].piece_pair_start; p < pairs_[i].piece_pair_end; ++p) {
+        const PiecePair& pieces = piece_pairs_[p];
+        const std::uint32_t corners_a = model.piece_start[pieces.a + 1] - model.piece_start[pieces.a];
+        if (fixed_[pairs_[i].a] == 0) take(pairs_[i].a, {pieces.load_start, i, pieces.a});
+        if (fixed_[pairs_[i].b] == 0) take(pairs_[i].b, {pieces.load_start + corners_a, i, pieces.b});
+      }
+    }
+  };
+  body_loads_start_.assign(model.bodies.size() + 1, 0);
+  visit([&](std::uint32_t body, const kernels::PieceLoads&) { ++body_loads_start_[body + 1]; });
+  std::partial_sum(body_loads_start_.begin(), body_loads_start_.end(), body_loads_start_.begin());
+  body_loads_.resize(body_loads_start_.back());
+  std::vector<std::uint32_t> next(body_loads_start_.begin(), body_loads_start_.end() - 1);
+  visit([&](std::uint32_t body, const kernels::PieceLoads& loads) { body_loads_[next[body]++] = loads; });
+}
+
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return {};
-  call_law(model, motion, conditions);
-  while (make_room()) call_law(model, motion, conditions);
+  while (!call_law(model, motion, conditions)) make_room();
   history_.swap(next_history_);
-  return gather(model, motion);
+  const ContactTotals totals = close_step();
+  add_loads(model, motion);
+  return totals;
 }
 
 double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
@@ -150,88 +206,110 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   return sum;
 }
 
-void ContactStage::call_law(const Model& model, const MotionState& motion, const Conditions& conditions) {
+/// False when the law found more contacts somewhere than there are slots.
+bool ContactStage::call_law(const Model& model, const MotionState& motion, const Conditions& conditions) {
 #ifdef TALUS_AUDIT
-  std::fill(next_history_.begin(), next_history_.end(), std::numeric_limits<double>::quiet_NaN());
+  for (std::vector<double>* values : {&next_history_, &load_x_, &load_y_})
+    std::fill(values->begin(), values->end(), std::numeric_limits<double>::quiet_NaN());
 #endif
-  std::fill(load_x_.begin(), load_x_.end(), 0.0);
-  std::fill(load_y_.begin(), load_y_.end(), 0.0);
-  std::fill(pair_reports_.begin(), pair_reports_.end(), PairReport{});
-  const Boundaries boundaries{motion.x.data(),          motion.y.data(),         motion.vx.data(),
-                              motion.vy.data(),         motion.tangent_x.data(), motion.tangent_y.data(),
-                              motion.length.data(),     model.surface.data(),    model.cut.data(),
-                              model.piece_start.data(), model.is_strip.data()};
-  const auto evaluate_range = [&](std::size_t begin, std::size_t end) {
-    if (begin == end) return;
+  const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
+                              clear_depth_.data()};
+  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const ContactBatch batch{
         boundaries,          interfaces_,           pairs_.data() + begin,
         piece_pairs_.data(), history_.data(),       static_cast<std::uint32_t>(end - begin),
         conditions.dt,       conditions.hold_stick, conditions.bonds_form};
-    law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(), reports_.data(),
-                           pair_reports_.data() + begin});
-  };
-  const std::size_t count = pairs_.size();
-  if (threads_ == 1 || count < 2 * pairs_per_thread) {
-    evaluate_range(0, count);
-    return;
-  }
-  const std::size_t ranges =
-      std::min<std::size_t>(static_cast<std::size_t>(threads_), count / pairs_per_thread);
-#pragma omp parallel for num_threads(static_cast <int>(ranges)) schedule(static, 1)
-  for (std::size_t r = 0; r < ranges; ++r) evaluate_range(count * r / ranges, count * (r + 1) / ranges);
+    law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
+                           conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
+    chunk_totals_[chunk] = total(begin, end);
+  });
+  return std::none_of(chunk_totals_.begin(), chunk_totals_.end(),
+                      [](const ChunkTotals& chunk) { return chunk.short_of_room; });
 }
 
-/// Where a law found more contacts than there are slots; true if it must be asked again.
-bool ContactStage::make_room() {
-  bool short_of_room = false;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    capacities_[i] = pairs_[i].slot_capacity;
-    if (pair_reports_[i].contact_count > capacities_[i]) {
-      capacities_[i] = 2 * pair_reports_[i].contact_count;
-      short_of_room = true;
-    }
-  }
-  if (short_of_room) lay_out_slots(capacities_);
-  return short_of_room;
-}
-
-/// f_c of Eq. 48: adds the loads at the corners to their bodies, pair after pair, whatever the threads did.
-ContactTotals ContactStage::gather(const Model& model, MotionState& motion) {
-  ContactTotals totals;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    BodyPair& pair = pairs_[i];
+ContactStage::ChunkTotals ContactStage::total(std::size_t begin, std::size_t end) {
+  ChunkTotals totals;
+  for (std::size_t i = begin; i < end; ++i) {
     const PairReport& report = pair_reports_[i];
-    pair.contact_count = report.contact_count;
     totals.stored += report.stored;
     totals.slip_loss += report.slip_loss;
     // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
     totals.damping_loss +=
         (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power_[i]))) / 2;
-    damping_power_[i] = report.damping_power;
     if (!(report.penetration <= totals.penetration)) {
       totals.penetration = report.penetration;
-      totals.deepest_a = pair.a;
-      totals.deepest_b = pair.b;
+      totals.deepest_a = pairs_[i].a;
+      totals.deepest_b = pairs_[i].b;
     }
-    if (report.contact_count == 0) continue;
-    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-      std::uint32_t load = piece_pairs_[p].load_start;
-      for (const std::uint32_t piece : {piece_pairs_[p].a, piece_pairs_[p].b}) {
-        if (model.is_strip[piece] != 0) {
-          const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
-          motion.add_force(side.start, {load_x_[load], load_y_[load]});
-          motion.add_force(side.end, {load_x_[load + 1], load_y_[load + 1]});
-          load += model.piece_start[piece + 1] - model.piece_start[piece];
-          continue;
-        }
-        BodyForce& force = motion.forces[model.piece_body[piece]];
-        for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c, ++load) {
-          force.add({model.reference_x[c], model.reference_y[c]}, {load_x_[load], load_y_[load]});
-        }
-      }
-    }
+    totals.short_of_room = totals.short_of_room || report.contact_count > pairs_[i].slot_capacity;
   }
   return totals;
+}
+
+void ContactStage::make_room() {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    capacities_[i] = pairs_[i].slot_capacity;
+    if (pair_reports_[i].contact_count > capacities_[i]) capacities_[i] = 2 * pair_reports_[i].contact_count;
+  }
+  lay_out_slots(capacities_);
+}
+
+/// What the law found becomes what it is told of the previous step next time.
+ContactTotals ContactStage::close_step() {
+  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      pairs_[i].contact_count = pair_reports_[i].contact_count;
+      damping_power_[i] = pair_reports_[i].damping_power;
+    }
+  });
+  ContactTotals totals;
+  for (const ChunkTotals& chunk : chunk_totals_) {
+    totals.stored += chunk.stored;
+    totals.slip_loss += chunk.slip_loss;
+    totals.damping_loss += chunk.damping_loss;
+    if (chunk.penetration <= totals.penetration) continue;
+    totals.penetration = chunk.penetration;
+    totals.deepest_a = chunk.deepest_a;
+    totals.deepest_b = chunk.deepest_b;
+  }
+  return totals;
+}
+
+/// f_c of Eq. 48: each body gathers the loads at its corners, pair after pair, whatever the threads did.
+void ContactStage::add_loads(const Model& model, MotionState& motion) {
+  const auto add = [&](std::uint32_t body) {
+    const kernels::PieceLoads* begin = body_loads_.data() + body_loads_start_[body];
+    const kernels::PieceLoads* end = body_loads_.data() + body_loads_start_[body + 1];
+    const Body& own = model.bodies[body];
+    if (own.piece_end == own.piece_begin + 1 && model.is_strip[own.piece_begin] == 0) {
+      kernels_.add_loads(own.corner_end - own.corner_begin, &model.reference_x[own.corner_begin],
+                         &model.reference_y[own.corner_begin], begin, end, pairs_.data(), load_x_.data(),
+                         load_y_.data(), motion.forces[body]);
+      return;
+    }
+    for (const kernels::PieceLoads* at = begin; at != end; ++at) {
+      if (pairs_[at->pair].contact_count > 0) add_piece_loads(model, *at, motion);
+    }
+  };
+  workers_.over(model.bodies.size(), body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t body = begin; body < end; ++body) {
+      if (body_loads_start_[body] != body_loads_start_[body + 1]) add(static_cast<std::uint32_t>(body));
+    }
+  });
+}
+
+void ContactStage::add_piece_loads(const Model& model, const kernels::PieceLoads& loads,
+                                   MotionState& motion) const {
+  std::uint32_t load = loads.load;
+  if (model.is_strip[loads.piece] != 0) {
+    const BoundarySide& side = model.sides[model.strips[model.piece_strip[loads.piece]].side];
+    motion.add_force(side.start, {load_x_[load], load_y_[load]});
+    motion.add_force(side.end, {load_x_[load + 1], load_y_[load + 1]});
+    return;
+  }
+  BodyForce& force = motion.forces[model.piece_body[loads.piece]];
+  for (std::uint32_t c = model.piece_start[loads.piece]; c < model.piece_start[loads.piece + 1]; ++c, ++load)
+    force.add({model.reference_x[c], model.reference_y[c]}, {load_x_[load], load_y_[load]});
 }
 
 }  // namespace talus

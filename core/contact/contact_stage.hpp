@@ -1,8 +1,10 @@
 #pragma once
 
 #include "contact/neighbours.hpp"
+#include "kernels/level.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
+#include "parallel/workers.hpp"
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
@@ -23,7 +25,8 @@ struct ContactTotals {
 /// Which bodies may touch, the law's history of each contact, and the forces of a step (Table 1).
 class ContactStage {
  public:
-  ContactStage(const Scene& scene, const Model& model, int threads, bool neighbour_skin);
+  ContactStage(const Scene& scene, const Model& model, Workers& workers, bool neighbour_skin,
+               SimdLevel level = SimdLevel::scalar);
 
   const ContactModel* law() const { return law_.get(); }
   const Interfaces& interfaces() const { return interfaces_; }
@@ -38,8 +41,9 @@ class ContactStage {
   struct Conditions {
     double dt;  ///< s, from t_{n-1} to t_n
     bool hold_stick, bonds_form;
+    bool observed = true;  ///< whether anybody will look at reports()
   };
-  /// Evaluates the law on all pairs and adds the loads to the bodies' forces.
+  /// Evaluates the law on all pairs and adds the loads to the forces on the moving bodies.
   ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
 
   /// What the contacts would hold and have lost, J/m, with the parameters before the last set_interfaces();
@@ -53,18 +57,29 @@ class ContactStage {
 
  private:
   void rebuild_pairs(const Model& model);
+  void measure_clear_depths(const Model& model, const MotionState& motion);
+  void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
-  bool make_room();
-  void call_law(const Model& model, const MotionState& motion, const Conditions& conditions);
-  ContactTotals gather(const Model& model, MotionState& motion);
+  void make_room();
+  bool call_law(const Model& model, const MotionState& motion, const Conditions& conditions);
+  struct ChunkTotals : ContactTotals {
+    bool short_of_room = false;
+  };
+  ChunkTotals total(std::size_t begin, std::size_t end);
+  ContactTotals close_step();
+  void add_loads(const Model& model, MotionState& motion);
+  void add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
   double master_share(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
   std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
-  std::vector<double> priority_;  ///< [body], empty with symmetric roles
-  std::vector<char> fixed_;       ///< [body]
-  int threads_;
+  std::vector<double> priority_;              ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;                   ///< [body]
+  std::vector<std::uint32_t> plain_corners_;  ///< [body] as BodyPair::plain_corners
+  std::vector<double> clear_depth_;           ///< [piece] as of the last search
+  Workers& workers_;
+  const kernels::BlockKernels& kernels_;
   double skin_;
   double slack_ = -1;  ///< m left before the next search; negative: search at once
   std::uint64_t searches_ = 0;
@@ -74,6 +89,9 @@ class ContactStage {
   std::vector<Candidate> candidates_;
   std::vector<BodyPair> pairs_, old_pairs_;
   std::vector<PiecePair> piece_pairs_;
+  std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body
+  std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
+  std::vector<ChunkTotals> chunk_totals_;
   std::vector<double> damping_power_, old_damping_power_;  ///< [pair] J/m of the last step
   std::vector<std::uint32_t> capacities_;
   std::vector<double> history_, next_history_;

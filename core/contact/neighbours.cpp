@@ -37,10 +37,10 @@ void NeighbourSearch::measure_boxes(const Model& model, const MotionState& motio
     const double offset_x = centre.x - origin_.x, offset_y = centre.y - origin_.y;
     Box box{INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (std::uint32_t c = model.piece_start[p]; c < model.piece_start[p + 1]; ++c) {
-      box.low_x = std::min(box.low_x, motion.x[c]);
-      box.low_y = std::min(box.low_y, motion.y[c]);
-      box.high_x = std::max(box.high_x, motion.x[c]);
-      box.high_y = std::max(box.high_y, motion.y[c]);
+      box.low_x = std::min(box.low_x, motion.corners[c].x);
+      box.low_y = std::min(box.low_y, motion.corners[c].y);
+      box.high_x = std::max(box.high_x, motion.corners[c].x);
+      box.high_y = std::max(box.high_y, motion.corners[c].y);
     }
     boxes_[p] = {box.low_x + offset_x - skin / 2, box.low_y + offset_y - skin / 2,
                  box.high_x + offset_x + skin / 2, box.high_y + offset_y + skin / 2};

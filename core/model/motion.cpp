@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace talus {
 
@@ -14,13 +13,14 @@ MotionState::MotionState(const Model& model)
       patch_displacement(model.patch_star.size()),
       patch_velocity(model.patch_star.size()),
       patch_force(model.patch_star.size()),
-      x(model.reference_x),
-      y(model.reference_y),
-      vx(x.size(), 0.0),
-      vy(x.size(), 0.0),
-      tangent_x(x.size()),
-      tangent_y(x.size()),
-      length(x.size()) {
+      corners(model.reference_x.size()) {
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    corners[c] = {};
+    corners[c].x = model.reference_x[c];
+    corners[c].y = model.reference_y[c];
+    corners[c].surface = model.surface[c];
+    corners[c].cut = model.cut[c];
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     move_corners(model, i);
     measure_sides(model, i);
@@ -110,10 +110,13 @@ void MotionState::average(const Model& model, std::uint32_t index) {
 
 void MotionState::move_boundary(const Model& model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
-    move_corners(model, i);
-    measure_sides(model, i);
+    if (model.bodies[i].kinematics != Kinematics::fixed) move_boundary_of(model, i);
   }
+}
+
+void MotionState::move_boundary_of(const Model& model, std::size_t body) {
+  move_corners(model, body);
+  measure_sides(model, body);
 }
 
 void MotionState::move_corners(const Model& model, std::size_t index) {
@@ -121,10 +124,10 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
   if (body.kinematics == Kinematics::covered) {
     const auto move = [&](const MaterialPoint& point, std::uint32_t c) {
       const Vec2 moved = displacement(point), speed = velocity(point);
-      x[c] = point.reference.x + moved.x;
-      y[c] = point.reference.y + moved.y;
-      vx[c] = speed.x;
-      vy[c] = speed.y;
+      corners[c].x = point.reference.x + moved.x;
+      corners[c].y = point.reference.y + moved.y;
+      corners[c].vx = speed.x;
+      corners[c].vy = speed.y;
     };
     for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
       const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
@@ -138,10 +141,10 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
     const Vec2 reference{model.reference_x[c], model.reference_y[c]};
     const Vec2 moved = talus::displacement(motion, reference), speed = talus::velocity(motion, reference);
-    x[c] = reference.x + moved.x;
-    y[c] = reference.y + moved.y;
-    vx[c] = speed.x;
-    vy[c] = speed.y;
+    corners[c].x = reference.x + moved.x;
+    corners[c].y = reference.y + moved.y;
+    corners[c].vx = speed.x;
+    corners[c].vy = speed.y;
   }
 }
 
@@ -149,31 +152,14 @@ void MotionState::measure_sides(const Model& model, std::size_t body) {
   for (std::uint32_t piece = model.bodies[body].piece_begin; piece < model.bodies[body].piece_end; ++piece) {
     const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
     for (std::uint32_t c = begin; c < end; ++c) {
-      const std::uint32_t next = c + 1 == end ? begin : c + 1;
-      const double dx = x[next] - x[c], dy = y[next] - y[c];
-      length[c] = std::sqrt(dx * dx + dy * dy);
-      tangent_x[c] = length[c] > 0 ? dx / length[c] : 0;
-      tangent_y[c] = length[c] > 0 ? dy / length[c] : 0;
+      BoundaryCorner& corner = corners[c];
+      const BoundaryCorner& next = corners[c + 1 == end ? begin : c + 1];
+      const double dx = next.x - corner.x, dy = next.y - corner.y;
+      corner.length = std::sqrt(dx * dx + dy * dy);
+      corner.tangent_x = corner.length > 0 ? dx / corner.length : 0;
+      corner.tangent_y = corner.length > 0 ? dy / corner.length : 0;
     }
   }
-}
-
-MotionState::Speeds MotionState::speeds() const {
-  if (vx.empty()) return {};
-  double squared = 0, sum = 0;
-  double low_x = vx[0], high_x = vx[0], low_y = vy[0], high_y = vy[0];
-  for (std::size_t c = 0; c < vx.size(); ++c) {
-    const double here = vx[c] * vx[c] + vy[c] * vy[c];
-    squared = std::max(squared, here);
-    sum += here;
-    low_x = std::min(low_x, vx[c]);
-    high_x = std::max(high_x, vx[c]);
-    low_y = std::min(low_y, vy[c]);
-    high_y = std::max(high_y, vy[c]);
-  }
-  if (!std::isfinite(sum)) return {std::numeric_limits<double>::quiet_NaN(), 0};
-  const double dx = high_x - low_x, dy = high_y - low_y;
-  return {std::sqrt(squared), std::sqrt(dx * dx + dy * dy)};
 }
 
 double torque(const BodyMotion& m, const BodyForce& f) {

@@ -2,6 +2,8 @@
 
 #include "model/model.hpp"
 
+#include <talus/contact_model.hpp>
+
 #include <vector>
 
 namespace talus {
@@ -37,14 +39,14 @@ struct MotionState {
 
   std::vector<BodyMotion> bodies;  ///< of a body of many elements: the mean, as of the last average()
   std::vector<BodyForce> forces;
-  std::vector<Vec2> patch_displacement;              ///< [patch] m
-  std::vector<Vec2> patch_velocity;                  ///< [patch] m/s
-  std::vector<Vec2> patch_force;                     ///< [patch] N/m
-  std::vector<double> x, y, vx, vy;                  ///< [corner] in the frame of the body, m, m/s
-  std::vector<double> tangent_x, tangent_y, length;  ///< [corner] of the side that starts there
+  std::vector<Vec2> patch_displacement;  ///< [patch] m
+  std::vector<Vec2> patch_velocity;      ///< [patch] m/s
+  std::vector<Vec2> patch_force;         ///< [patch] N/m
+  std::vector<BoundaryCorner> corners;   ///< in the frame of the body
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
+  void move_boundary_of(const Model& model, std::size_t body);
 
   /// Takes all velocities away.
   void stop();
@@ -61,7 +63,6 @@ struct MotionState {
     double largest = 0;   ///< m/s, of a corner; NaN if any is
     double relative = 0;  ///< m/s, bound of the difference between any two corners
   };
-  Speeds speeds() const;
 
  private:
   void move_corners(const Model& model, std::size_t body);

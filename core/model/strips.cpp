@@ -219,7 +219,7 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
   const auto first_corner = [&](std::uint32_t side) {
     return model.piece_start[body.piece_begin + side - body.side_begin];
   };
-  const auto corner = [&](std::uint32_t c) { return Vec2{motion.x[c], motion.y[c]}; };
+  const auto corner = [&](std::uint32_t c) { return Vec2{motion.corners[c].x, motion.corners[c].y}; };
   const auto tangent_of = [&](std::uint32_t side) {
     const std::uint32_t c = first_corner(side);
     return unit(minus(corner(c + 1), corner(c)));
@@ -252,10 +252,11 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
     join_coincident(corners, count, strip.depth);
     for (std::uint32_t c = first + 2; c < last; ++c) {
       const std::size_t from = std::min<std::size_t>(c - first, count - 1);
-      motion.x[c] = corners[from].x;
-      motion.y[c] = corners[from].y;
-      motion.vx[c] = motion.vx[from == 2 ? first + 1 : first];
-      motion.vy[c] = motion.vy[from == 2 ? first + 1 : first];
+      const BoundaryCorner& led_by = motion.corners[from == 2 ? first + 1 : first];
+      motion.corners[c].x = corners[from].x;
+      motion.corners[c].y = corners[from].y;
+      motion.corners[c].vx = led_by.vx;
+      motion.corners[c].vy = led_by.vy;
     }
   }
 }

@@ -32,7 +32,8 @@ std::optional<std::string> reason_in_sizes(const Library& library) {
                         {"BodyPair", library.body_pair_size, sizeof(BodyPair)},
                         {"MaterialBatch", library.material_batch_size, sizeof(MaterialBatch)},
                         {"BodyShape", library.body_shape_size, sizeof(BodyShape)},
-                        {"Boundaries", library.boundaries_size, sizeof(Boundaries)}};
+                        {"Boundaries", library.boundaries_size, sizeof(Boundaries)},
+                        {"BoundaryCorner", library.boundary_corner_size, sizeof(BoundaryCorner)}};
   for (const Size& size : sizes) {
     if (size.found != size.wanted) {
       return fmt::format("found {} of {} bytes, wanted {}; {}", size.type, size.found, size.wanted,

@@ -36,6 +36,16 @@ boost::dll::shared_library open_for_good(const fs::path& file) {
   return boost::dll::shared_library(file, mode);
 }
 
+/// The same library built for the best instruction set up to `level`: in a folder of that name beside it.
+fs::path variant_of(const fs::path& file, SimdLevel level) {
+  for (int i = static_cast<int>(level); i > 0; --i) {
+    const fs::path variant = file.parent_path() / name_of(static_cast<SimdLevel>(i)) / file.filename();
+    std::error_code problem;
+    if (fs::is_regular_file(variant, problem)) return variant;
+  }
+  return file;
+}
+
 /// Loads a library and adds its components, or says why not.
 std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path& file) {
   std::error_code problem;
@@ -48,7 +58,7 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
   }
   const Library* library = nullptr;
   try {
-    const boost::dll::shared_library opened = open_for_good(file);
+    const boost::dll::shared_library opened = open_for_good(variant_of(file, registry.simd));
     if (!opened.has(symbol)) {
       return fmt::format(
           "found no symbol '{}', wanted the descriptor of a talus plugin; export it with "

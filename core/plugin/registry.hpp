@@ -1,5 +1,7 @@
 #pragma once
 
+#include "plugin/simd_level.hpp"
+
 #include <talus/library.hpp>
 
 #include <filesystem>
@@ -42,6 +44,9 @@ class Registry {
   std::vector<std::string> names(ComponentKind kind) const;  ///< sorted
   std::span<const RegisteredComponent> components() const { return components_; }
   std::vector<RefusedLibrary> refused;  ///< libraries of the search folders that did not fit
+
+  /// Of a library that was built for several levels, the best up to this one is loaded.
+  SimdLevel simd = best_simd_level();
 
  private:
   std::vector<RegisteredComponent> components_;

@@ -1,5 +1,6 @@
 #include "simulation/integrator.hpp"
 
+#include "simulation/blocks.hpp"
 #include "simulation/velocity_update.hpp"
 
 namespace talus {
@@ -110,15 +111,16 @@ double kinetic_energy(const Body& body, double density, const BodyMotion& p, con
 }
 
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
-                            const StepConditions& conditions, MotionState& motion,
-                            VelocitiesAtStep& at_step) {
+                            const StepConditions& conditions, bool observed, Blocks& blocks,
+                            MotionState& motion, VelocitiesAtStep& at_step) {
   AccelerationWork work;
+  blocks.accelerate(conditions, motion, observed ? at_step.bodies.data() : nullptr, work);
   const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const double half_damping = conditions.damping * dt / 2;
   const Update update{(1 - half_damping) / (1 + half_damping), dt / (1 + half_damping)};
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
-    if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::fixed || blocks.is_free(static_cast<std::uint32_t>(i))) continue;
     if (body.kinematics == Kinematics::covered) {
       accelerate_patches(model, mass, static_cast<std::uint32_t>(i), supports[i], conditions, update, motion,
                          at_step, work);
@@ -148,29 +150,12 @@ Matrix2 spin_rate(const BodyMotion& motion) {
   return {motion.spin * spin.xx, motion.spin * spin.xy, motion.spin * spin.yx, motion.spin * spin.yy};
 }
 
-void move(const Model& model, double dt, MotionState& motion) {
+void move(double dt, Blocks& blocks, MotionState& motion) {
   for (std::size_t p = 0; p < motion.patch_displacement.size(); ++p) {
     motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
     motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;
   }
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const Kinematics kinematics = model.bodies[i].kinematics;
-    if (kinematics == Kinematics::fixed || kinematics == Kinematics::covered) continue;
-    BodyMotion& body = motion.bodies[i];
-    body.u.x += dt * body.velocity.x;
-    body.u.y += dt * body.velocity.y;
-    if (model.bodies[i].kinematics == Kinematics::rigid) {
-      const Matrix2 next = turned(body.h, dt * body.spin);
-      body.rate = {(next.xx - body.h.xx) / dt, (next.xy - body.h.xy) / dt, (next.yx - body.h.yx) / dt,
-                   (next.yy - body.h.yy) / dt};
-      body.h = next;
-      continue;
-    }
-    body.h.xx += dt * body.rate.xx;
-    body.h.xy += dt * body.rate.xy;
-    body.h.yx += dt * body.rate.yx;
-    body.h.yy += dt * body.rate.yy;
-  }
+  blocks.move(dt, motion);
 }
 
 }  // namespace talus

@@ -31,15 +31,19 @@ struct VelocitiesAtStep {
   std::vector<Vec2> patches;       ///< [patch] m/s
 };
 
+class Blocks;
+
 /// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. The forces on patches are used up.
+/// Velocities at t_n of bodies that move as a whole are kept only where they are `observed`.
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
-                            const StepConditions& conditions, MotionState& motion, VelocitiesAtStep& at_step);
+                            const StepConditions& conditions, bool observed, Blocks& blocks,
+                            MotionState& motion, VelocitiesAtStep& at_step);
 
 /// Rate of H of a rigid body that spins.
 Matrix2 spin_rate(const BodyMotion& motion);
 
 /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
-void move(const Model& model, double dt, MotionState& motion);
+void move(double dt, Blocks& blocks, MotionState& motion);
 
 /// Kinetic energy of a body with velocities p before and q after, ½ pᵀ M q, J/m.
 double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q);

@@ -88,6 +88,7 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
     if (interrupted != nullptr && *interrupted) break;
   }
   if (s.time == target) ++s.output;
+  if (!s.observed) s.at_time.bodies = s.motion.bodies;  // interrupted between outputs
   s.bring_rotation_up_to_date();
   s.check_balance();
   return true;

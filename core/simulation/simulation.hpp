@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plugin/simd_level.hpp"
 #include "scene/scene.hpp"
 #include "simulation/time_step.hpp"
 
@@ -20,8 +21,9 @@ class NumericalTrouble : public std::runtime_error {
 
 struct RunSettings {
   int threads = 1;
-  bool neighbour_skin = true;  ///< off: candidate pairs are sought anew every step, for checking
-  double largest_dt = 0;       ///< s, cap on the automatic step; 0 for none
+  bool neighbour_skin = true;          ///< off: candidate pairs are sought anew every step, for checking
+  double largest_dt = 0;               ///< s, cap on the automatic step; 0 for none
+  SimdLevel simd = best_simd_level();  ///< for the loops of the core; same bits at any
 };
 
 /// Energies per metre of thickness, J/m, since t = 0.

@@ -25,10 +25,12 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
     : scene(scene_in),
       settings(settings_in),
       stage(settings_of(scene)),
+      workers(settings.threads),
       model(build_model(scene)),
       motion(model),
+      blocks(model, settings.simd, workers),
       mass(model),
-      contacts(scene, model, settings.threads, settings.neighbour_skin),
+      contacts(scene, model, workers, settings.neighbour_skin, settings.simd),
       deformation(scene, model),
       loads(scene, stage, model),
       relaxation(model),
@@ -41,16 +43,18 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
   summary.critical_dt = critical.dt;
   summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
+  blocks.set_supports(stage.supports);
 }
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
 void Simulation::State::step(double next_end) {
-  move(model, plan.dt, motion);  // Eq. 22
+  move(plan.dt, blocks, motion);  // Eq. 22
   dt_behind = plan.dt;
   ++plan.done;
   ++(settling ? summary.settle_steps : summary.steps);
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
   begin_due_stages();
+  observed = plan.done == plan.steps;
   if (plan.done == plan.steps) {
     make_plan(plan.end < plan.target ? plan.target : next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
@@ -67,8 +71,8 @@ void Simulation::State::step(double next_end) {
 
 void Simulation::State::begin(double end) {
   dt_behind = 0;
-  motion.move_boundary(model);
-  speeds = motion.speeds();  // the first step is bounded by them, too
+  observed = true;
+  speeds = blocks.follow(model, motion);  // the first step is bounded by them, too
   make_plan(end);
   forces();
   check_step();
@@ -78,8 +82,7 @@ void Simulation::State::begin(double end) {
 void Simulation::State::forces() {
   for (BodyForce& force : motion.forces) force = {};
   for (Vec2& force : motion.patch_force) force = {};
-  motion.move_boundary(model);  // Eq. 11
-  speeds = motion.speeds();
+  speeds = blocks.follow(model, motion);                           // Eq. 11
   contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
   const double interface_work = evaluate_contacts();               // Eqs. 28–48
   strain_energy = deformation.apply(model, motion, dt_behind);     // Eq. 18
@@ -93,8 +96,8 @@ void Simulation::State::forces() {
   const double damping = relaxation.damping(how, model, motion, dt_behind);
   const AccelerationWork work =
       accelerate(model, mass, stage.supports,
-                 {pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling}, motion,
-                 at_time);  // Eqs. 23–24
+                 {pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling}, observed,
+                 blocks, motion, at_time);  // Eqs. 23–24
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
@@ -108,7 +111,7 @@ void Simulation::State::forces() {
 /// lost with the new ones, less with the old ones.
 double Simulation::State::evaluate_contacts() {
   const bool hold_stick = settling && scene.settle->hold_stick;
-  const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling};
+  const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling, observed};
   const double before = interfaces_changed ? contacts.with_former_interfaces(model, motion, conditions) : 0;
   contact_totals = contacts.evaluate(model, motion, conditions);
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
@@ -144,6 +147,7 @@ void Simulation::State::begin_due_stages() {
   while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
     stage = scene.stages[stages_begun++].settings;
     contacts.set_interfaces(stage.interface_values);
+    blocks.set_supports(stage.supports);
     interfaces_changed = true;
     loads.replace(Loads(scene, stage, model));
     critical = critical_step(scene, stage, model, contacts);

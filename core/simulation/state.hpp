@@ -3,6 +3,7 @@
 #include "contact/contact_stage.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
+#include "simulation/blocks.hpp"
 #include "simulation/deformation.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/ledger.hpp"
@@ -21,8 +22,10 @@ struct Simulation::State {
   Scene scene;
   RunSettings settings;
   StageSettings stage;  ///< what holds now
+  Workers workers;
   Model model;
   MotionState motion;
+  Blocks blocks;
   PatchMass mass;
   ContactStage contacts;
   Deformation deformation;
@@ -34,6 +37,7 @@ struct Simulation::State {
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
   bool settling = false;
   bool fresh = true;         ///< no contact has been evaluated yet
+  bool observed = true;      ///< somebody will look at t_n: it ends a plan
   bool started = false;      ///< t = 0 has been reached
   std::uint64_t output = 0;  ///< number of the output time reached last
 

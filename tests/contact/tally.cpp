@@ -21,7 +21,16 @@ class Tally final : public ContactModel {
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
       const BodyPair& pair = batch.pairs[i];
+      loads.pairs[i] = {};
       loads.pairs[i].contact_count = contacts;
+      for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
+        const PiecePair& pieces = batch.piece_pairs[p];
+        const std::uint32_t* start = batch.boundaries.piece_start;
+        const std::uint32_t corners =
+            start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];
+        for (std::uint32_t c = 0; c < corners; ++c)
+          loads.fx[pieces.load_start + c] = loads.fy[pieces.load_start + c] = 0;
+      }
       for (std::uint32_t c = 0; c < contacts && c < pair.slot_capacity; ++c) {
         const double age = c < pair.contact_count ? batch.history[pair.slot_start + c] : 0;
         loads.history[pair.slot_start + c] = age + 1;

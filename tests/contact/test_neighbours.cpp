@@ -70,7 +70,7 @@ std::vector<Candidate> brute_force(const Model& model, const MotionState& motion
       const double offset = along_x ? centre.x : centre.y;
       double low = INFINITY, high = -INFINITY;
       for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c) {
-        const double at = offset + (along_x ? motion.x[c] : motion.y[c]);
+        const double at = offset + (along_x ? motion.corners[c].x : motion.corners[c].y);
         low = std::min(low, at);
         high = std::max(high, at);
       }
@@ -94,8 +94,10 @@ std::vector<Candidate> brute_force(const Model& model, const MotionState& motion
 
 MotionState at_start(const Model& model) {
   MotionState motion(model);
-  motion.x = model.reference_x;
-  motion.y = model.reference_y;
+  for (std::size_t c = 0; c < motion.corners.size(); ++c) {
+    motion.corners[c].x = model.reference_x[c];
+    motion.corners[c].y = model.reference_y[c];
+  }
   return motion;
 }
 
@@ -109,9 +111,9 @@ void check_against_brute_force(const Model& model, double skin) {
 
   // The same searcher again, after everything has moved.
   Random random{std::mt19937(99)};
-  for (std::size_t c = 0; c < motion.x.size(); ++c) {
-    motion.x[c] += random(-0.3, 0.3);
-    motion.y[c] += random(-0.3, 0.3);
+  for (std::size_t c = 0; c < motion.corners.size(); ++c) {
+    motion.corners[c].x += random(-0.3, 0.3);
+    motion.corners[c].y += random(-0.3, 0.3);
   }
   search.find(model, motion, skin, found);
   CHECK(found == brute_force(model, motion, skin));

@@ -1,4 +1,5 @@
 #include "contact/contact_stage.hpp"
+#include "parallel/alone.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -50,7 +51,7 @@ class Pressed {
       motion.patch_displacement[p] = {x + h.xx * star.x + h.xy * star.y, y + h.yx * star.x + h.yy * star.y};
     }
     motion.move_boundary(model_);
-    ContactStage contacts(scene_, model_, 1, true);
+    ContactStage contacts(scene_, model_, alone(), true);
     contacts.find_pairs(model_, motion, 1e9);
     Loaded loaded{contacts.evaluate(model_, motion, {0, true, false}).stored, {}, {}, 0};
     add(motion, 0, loaded.force_a, loaded.moment);
@@ -149,7 +150,7 @@ TEST_CASE("the halves of a body that was cut anywhere meet as two bodies do", "[
       const Scene scene = text.read();
       const Model model = build_model(scene);
       MotionState motion(model);
-      ContactStage contacts(scene, model, 1, true);
+      ContactStage contacts(scene, model, alone(), true);
       contacts.find_pairs(model, motion, 1e9);
       const ContactTotals untouched = contacts.evaluate(model, motion, {0, true, false});
       CHECK(untouched.penetration <= 1e-9);

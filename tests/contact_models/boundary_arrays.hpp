@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/convex_pieces.hpp"
+#include "geometry/vanishing_depth.hpp"
 #include "model/motion.hpp"
 
 #include <talus/contact_model.hpp>
@@ -22,8 +23,9 @@ struct HeldBody {
 
 /// The arrays of all bodies, as the host keeps them.
 struct BoundaryArrays {
-  std::vector<double> x, y, vx, vy, tangent_x, tangent_y, length;
-  std::vector<std::uint32_t> surface, cut, piece_start{0}, body_piece{0}, corner_body;
+  std::vector<BoundaryCorner> corners;
+  std::vector<double> clear_depth;
+  std::vector<std::uint32_t> piece_start{0}, body_piece{0}, corner_body;
   std::vector<std::uint8_t> is_strip;
   std::vector<Vec2> reference;
 
@@ -35,35 +37,42 @@ struct BoundaryArrays {
     for (const ConvexPiece& piece : body.pieces) {
       for (const PieceCorner& corner : piece) {
         const Vec2 u = displacement(body.motion, corner.at), v = velocity(body.motion, corner.at);
-        x.push_back(corner.at.x + u.x), y.push_back(corner.at.y + u.y);
-        vx.push_back(v.x), vy.push_back(v.y);
-        surface.push_back(corner.surface), cut.push_back(corner.cut);
+        corners.push_back(
+            {corner.at.x + u.x, corner.at.y + u.y, 0, 0, v.x, v.y, 0, corner.surface, corner.cut});
         reference.push_back(corner.at), corner_body.push_back(number);
       }
       measure_sides(piece_start.back());
-      piece_start.push_back(static_cast<std::uint32_t>(x.size()));
+      const std::size_t begin = piece_start.back();
+      clear_depth.push_back(vanishing_depth(&corners[begin], corners.size() - begin));
+      piece_start.push_back(static_cast<std::uint32_t>(corners.size()));
       is_strip.push_back(0);
     }
     body_piece.push_back(static_cast<std::uint32_t>(piece_start.size() - 1));
   }
 
   void measure_sides(std::size_t begin) {
-    for (std::size_t i = begin; i < x.size(); ++i) {
-      const std::size_t next = i + 1 == x.size() ? begin : i + 1;
-      const double dx = x[next] - x[i], dy = y[next] - y[i];
-      length.push_back(std::sqrt(dx * dx + dy * dy));
-      tangent_x.push_back(length[i] > 0 ? dx / length[i] : 0);
-      tangent_y.push_back(length[i] > 0 ? dy / length[i] : 0);
+    for (std::size_t i = begin; i < corners.size(); ++i) {
+      BoundaryCorner& corner = corners[i];
+      const BoundaryCorner& next = corners[i + 1 == corners.size() ? begin : i + 1];
+      const double dx = next.x - corner.x, dy = next.y - corner.y;
+      corner.length = std::sqrt(dx * dx + dy * dy);
+      corner.tangent_x = corner.length > 0 ? dx / corner.length : 0;
+      corner.tangent_y = corner.length > 0 ? dy / corner.length : 0;
     }
   }
 
+  /// As BodyPair::plain_corners wants it, for one body.
+  std::uint32_t plain_corners(std::uint32_t body) const {
+    if (body_piece[body + 1] != body_piece[body] + 1) return 0;
+    const std::uint32_t begin = piece_start[body_piece[body]], end = piece_start[body_piece[body] + 1];
+    for (std::uint32_t c = begin; c < end; ++c) {
+      if (corners[c].surface != corners[begin].surface || corners[c].surface == internal_side) return 0;
+    }
+    return end - begin;
+  }
+
   Boundaries view() const {
-    Boundaries all{};
-    all.x = x.data(), all.y = y.data(), all.vx = vx.data(), all.vy = vy.data();
-    all.tangent_x = tangent_x.data(), all.tangent_y = tangent_y.data(), all.length = length.data();
-    all.surface = surface.data(), all.cut = cut.data(), all.piece_start = piece_start.data();
-    all.is_strip = is_strip.data();
-    return all;
+    return {corners.data(), piece_start.data(), is_strip.data(), clear_depth.data()};
   }
 };
 

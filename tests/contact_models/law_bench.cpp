@@ -190,8 +190,8 @@ Evaluation LawBench::evaluate(double dt) {
   const BoundaryArrays arrays(bodies);
   const std::uint32_t doubles = law_->doubles_per_contact();
   std::uint32_t surfaces = 1;
-  for (const std::uint32_t surface : arrays.surface) {
-    if (surface != internal_side) surfaces = std::max(surfaces, surface + 1);
+  for (const BoundaryCorner& corner : arrays.corners) {
+    if (corner.surface != internal_side) surfaces = std::max(surfaces, corner.surface + 1);
   }
   std::vector<std::uint32_t> row(std::size_t{surfaces} * surfaces);
   for (std::uint32_t i = 0; i < surfaces; ++i) {
@@ -222,6 +222,8 @@ Evaluation LawBench::evaluate(double dt) {
         pair.piece_pair_end = static_cast<std::uint32_t>(piece_pairs.size());
         pair.offset_x = other.centre.x - one.centre.x, pair.offset_y = other.centre.y - one.centre.y;
         pair.master_share = master_share;
+        const std::uint32_t corners[] = {arrays.plain_corners(a), arrays.plain_corners(b)};
+        if (plain && corners[0] > 0 && corners[1] > 0) pair.plain_corners = std::max(corners[0], corners[1]);
         pair.reduced_mass = one.mass * other.mass / (one.mass + other.mass);
         pair.slot_start = slots, pair.slot_capacity = state.capacity, pair.contact_count = state.contacts;
         slots += state.capacity;
@@ -231,9 +233,10 @@ Evaluation LawBench::evaluate(double dt) {
         pairs.push_back(pair);
       }
     }
-    std::vector<double> fx(loads), fy(loads), next(history.size(), not_a_number);
+    std::vector<double> fx(loads, 0.0), fy(loads, 0.0), next(history.size(), not_a_number);
     std::vector<ContactReport> reports(slots);
-    std::vector<PairReport> pair_reports(pairs.size());
+    std::vector<PairReport> pair_reports(pairs.size(),
+                                         {77, not_a_number, not_a_number, not_a_number, not_a_number});
     const ContactBatch batch{
         arrays.view(),
         {row.data(), values.data(), surfaces, component_->component->interface_parameter_count},
@@ -276,7 +279,7 @@ Evaluation LawBench::evaluate(double dt) {
           const std::uint32_t body = arrays.corner_body[c];
           const Vec2 centre = bodies[body].centre;
           result.corners.push_back({body,
-                                    {centre.x + arrays.x[c], centre.y + arrays.y[c]},
+                                    {centre.x + arrays.corners[c].x, centre.y + arrays.corners[c].y},
                                     arrays.reference[c],
                                     {fx[load], fy[load]}});
           result.forces[body].add(arrays.reference[c], {fx[load], fy[load]});

@@ -66,6 +66,7 @@ class LawBench {
   std::vector<HeldBody> bodies;
   double master_share = 0.5;  ///< of the body of lower number, in every pair
   bool hold_stick = false, bonds_form = false;
+  bool plain = true;  ///< false: bodies are never said to be plain, so every pair goes the general way
 
   /// Interface of surface classes i and j, where there are several.
   void set_interfaces(const std::vector<Values>& rows,

@@ -26,7 +26,7 @@ double signed_area(const MotionState& motion, std::uint32_t begin, std::uint32_t
   double sum = 0;
   for (std::uint32_t c = begin; c < end; ++c) {
     const std::uint32_t next = c + 1 == end ? begin : c + 1;
-    sum += motion.x[c] * motion.y[next] - motion.x[next] * motion.y[c];
+    sum += motion.corners[c].x * motion.corners[next].y - motion.corners[next].x * motion.corners[c].y;
   }
   return sum / 2;
 }
@@ -86,16 +86,16 @@ TEST_CASE("strips stand behind their sides, convex and apart", "[model][strips]"
       const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
       const Strip& strip = model.strips[model.piece_strip[piece]];
       const BoundarySide& side = model.sides[strip.side];
-      CHECK(motion.x[begin] == side.start.reference.x);
-      CHECK(motion.y[begin + 1] == side.end.reference.y);
+      CHECK(motion.corners[begin].x == side.start.reference.x);
+      CHECK(motion.corners[begin + 1].y == side.end.reference.y);
       const double area = signed_area(motion, begin, end);
       CHECK(area > 0);
       strips += area;
       for (std::uint32_t c = begin; c < end; ++c) {
         // Every corner lies inside of every side, and no deeper than the strip.
         for (std::uint32_t k = begin; k < end; ++k) {
-          const double depth = motion.tangent_x[k] * (motion.y[c] - motion.y[k]) -
-                               motion.tangent_y[k] * (motion.x[c] - motion.x[k]);
+          const double depth = motion.corners[k].tangent_x * (motion.corners[c].y - motion.corners[k].y) -
+                               motion.corners[k].tangent_y * (motion.corners[c].x - motion.corners[k].x);
           CHECK(depth >= -1e-9);
           if (k == begin) CHECK(depth <= strip.depth * (1 + 1e-9));
         }
@@ -141,8 +141,8 @@ TEST_CASE("a body of many elements turns and stretches with its patches", "[mode
     const MaterialPoint& start = model.sides[model.strips[model.piece_strip[piece]].side].start;
     const Vec2 due{2 + h.xx * start.reference.x + h.xy * start.reference.y,
                    -1 + h.yx * start.reference.x + h.yy * start.reference.y};
-    CHECK(motion.x[model.piece_start[piece]] - start.reference.x == Approx(due.x).margin(1e-12));
-    CHECK(motion.y[model.piece_start[piece]] - start.reference.y == Approx(due.y).margin(1e-12));
+    CHECK(motion.corners[model.piece_start[piece]].x - start.reference.x == Approx(due.x).margin(1e-12));
+    CHECK(motion.corners[model.piece_start[piece]].y - start.reference.y == Approx(due.y).margin(1e-12));
   }
 }
 

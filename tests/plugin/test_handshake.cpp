@@ -36,6 +36,7 @@ TEST_CASE("The size of every structure of the door is checked", "[plugin]") {
   CHECK_THAT(spoilt(&Library::material_batch_size), Contains("found MaterialBatch of"));
   CHECK_THAT(spoilt(&Library::body_shape_size), Contains("found BodyShape of"));
   CHECK_THAT(spoilt(&Library::boundaries_size), Contains("found Boundaries of"));
+  CHECK_THAT(spoilt(&Library::boundary_corner_size), Contains("found BoundaryCorner of"));
 }
 
 TEST_CASE("Name, version, author and units of a library must stand", "[plugin]") {

@@ -17,21 +17,25 @@ namespace {
 /// Two pieces of four corners: a unit square (body a) and a square on its tip (body b), whose lowest corner
 /// is `depth` below the top of the first, at a quarter of its width.
 struct TwoSquares {
-  std::array<double, 8> x{0, 1, 1, 0, 0, 1, 0, -1}, y{0, 0, 1, 1, -1, 0, 1, 0}, v{};
-  std::array<std::uint32_t, 8> surface{}, cut{};
+  static constexpr double half = 0.70710678118654752;  // cosine of 45 degrees
+  std::array<BoundaryCorner, 8> corners{{{0, 0, 1, 0, 0, 0, 1, 0, 0},
+                                         {1, 0, 0, 1, 0, 0, 1, 0, 0},
+                                         {1, 1, -1, 0, 0, 0, 1, 0, 0},
+                                         {0, 1, 0, -1, 0, 0, 1, 0, 0},
+                                         {0, -1, half, half, 0, 0, 2 * half, 0, 0},
+                                         {1, 0, -half, half, 0, 0, 2 * half, 0, 0},
+                                         {0, 1, -half, -half, 0, 0, 2 * half, 0, 0},
+                                         {-1, 0, half, -half, 0, 0, 2 * half, 0, 0}}};
   std::array<std::uint32_t, 3> piece_start{0, 4, 8};
   std::array<std::uint8_t, 2> is_strip{};
   std::uint32_t row = 0;
   double stiffness = 3e6;
-  static constexpr double half = 0.70710678118654752;  // cosine of 45 degrees
-  std::array<double, 8> tangent_x{1, 0, -1, 0, half, -half, -half, half};
-  std::array<double, 8> tangent_y{0, 1, 0, -1, half, half, -half, -half};
-  std::array<double, 8> length{1, 1, 1, 1, 2 * half, 2 * half, 2 * half, 2 * half};
   PiecePair pieces{0, 1, 0};
   BodyPair pair{};
   std::array<double, 8> fx{}, fy{};
   std::array<ContactReport, 4> reports{};
   PairReport report{};
+  double clear_depth = 0;
 
   explicit TwoSquares(double depth) {
     pair.b = 1;
@@ -46,17 +50,7 @@ struct TwoSquares {
     fx = fy = {};
     report = {};
     ContactBatch batch{};
-    batch.boundaries = {.x = x.data(),
-                        .y = y.data(),
-                        .vx = v.data(),
-                        .vy = v.data(),
-                        .tangent_x = tangent_x.data(),
-                        .tangent_y = tangent_y.data(),
-                        .length = length.data(),
-                        .surface = surface.data(),
-                        .cut = cut.data(),
-                        .piece_start = piece_start.data(),
-                        .is_strip = is_strip.data()};
+    batch.boundaries = {corners.data(), piece_start.data(), is_strip.data(), &clear_depth};
     batch.interfaces = {&row, &stiffness, 1, 1};
     batch.pairs = &pair;
     batch.piece_pairs = &pieces;
@@ -95,8 +89,8 @@ TEST_CASE("A law built outside the tree loads and pushes", "[plugin]") {
 
   double sum_x = 0, sum_y = 0, moment = 0;
   for (std::size_t i = 0; i < 8; ++i) {
-    const double px = squares.x[i] + (i < 4 ? 0 : squares.pair.offset_x);
-    const double py = squares.y[i] + (i < 4 ? 0 : squares.pair.offset_y);
+    const double px = squares.corners[i].x + (i < 4 ? 0 : squares.pair.offset_x);
+    const double py = squares.corners[i].y + (i < 4 ? 0 : squares.pair.offset_y);
     sum_x += squares.fx[i];
     sum_y += squares.fy[i];
     moment += px * squares.fy[i] - py * squares.fx[i];

@@ -1,4 +1,5 @@
 #include "stiffest_mode.hpp"
+#include "parallel/alone.hpp"
 
 #include "contact/contact_stage.hpp"
 #include "simulation/deformation.hpp"
@@ -88,7 +89,7 @@ class Oscillator {
       body.rate = h;
     }
     motion.move_boundary(model_);
-    ContactStage contacts(scene_, model_, 1, true);
+    ContactStage contacts(scene_, model_, alone(), true);
     contacts.find_pairs(model_, motion, 1e9);
     contacts.evaluate(model_, motion, {1, true, false});
     Deformation(scene_, model_).apply(model_, motion, 1);

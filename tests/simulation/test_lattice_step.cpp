@@ -1,3 +1,4 @@
+#include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/time_step.hpp"
 #include "simulation/working_scene.hpp"
@@ -15,7 +16,7 @@ namespace {
 CriticalStep vote_of(const WorkingScene& text) {
   const Scene scene = text.read();
   const Model model = build_model(scene);
-  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, 1, true));
+  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
 }
 
 /// A body of one lattice, cut by its edges.

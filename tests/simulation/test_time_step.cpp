@@ -1,3 +1,4 @@
+#include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/time_step.hpp"
 #include "stiffest_mode.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 CriticalStep vote_of(const Scene& scene) {
   const Model model = build_model(scene);
-  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, 1, true));
+  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
 }
 
 std::string stiff(double normal, double tangential) {

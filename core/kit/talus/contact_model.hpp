@@ -4,8 +4,19 @@
 
 namespace talus {
 
-/// `Boundaries::surface` of a side that is no boundary: a cut along which a concave body was divided.
+/// `BoundaryCorner::surface` of a side that is no boundary: a cut along which a concave body was divided.
 inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
+
+/// A corner of a piece and the side that starts there. One line of a cache, first what tells whether pieces
+/// meet.
+struct BoundaryCorner {
+  double x, y;                  ///< m
+  double tangent_x, tangent_y;  ///< unit tangent of the side; 0 for a side without length
+  double vx, vy;                ///< m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
+  double length;                ///< m, of the side
+  std::uint32_t surface;        ///< surface class of the side, or internal_side
+  std::uint32_t cut;            ///< of an internal side: the number of its cut within the body
+};
 
 /// The boundaries of all bodies. A body is a set of convex *pieces* (one, if it is convex itself); a piece is
 /// a counter-clockwise ring of corners; side i of a piece runs from its corner i to the next. A body of many
@@ -13,20 +24,12 @@ inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
 /// limited depth. Loads act at real corners, the ends of sides that are not internal. Positions are
 /// in the frame of the body: relative to the body's reference centre, displaced. All arrays are read-only.
 struct Boundaries {
-  const double* x;   ///< [corner] m
-  const double* y;   ///< [corner] m
-  const double* vx;  ///< [corner] m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
-  const double* vy;  ///< [corner] m/s
-  const double*
-      tangent_x;  ///< [corner] unit tangent of the side that starts here; 0 for a side without length
-  const double* tangent_y;
-  const double* length;          ///< [corner] m, of the side that starts here
-  const std::uint32_t* surface;  ///< [corner] surface class of the side that starts here, or internal_side
-  const std::uint32_t* cut;      ///< [corner] of an internal side: the number of its cut within the body
+  const BoundaryCorner* corner;
   const std::uint32_t* piece_start;  ///< [piece + 1] first corner of each piece
   const std::uint8_t*
-      is_strip;  ///< [piece] 1: a strip behind one side of a body of many elements, side 0 of
-                 ///< the piece; the other sides are internal. Both ends of side 0 carry contact
+      is_strip;               ///< [piece] 1: a strip behind one side of a body of many elements, side 0 of
+                              ///< the piece; the other sides are internal. Both ends of side 0 carry contact
+  const double* clear_depth;  ///< [piece] m, so deep only sides that share a corner compete for a point
 };
 
 /// Parameters of the interface between two surface classes, in the order the law declared them.
@@ -60,6 +63,8 @@ struct BodyPair {
   std::uint32_t slot_capacity;  ///< how many contacts it can hold
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
+  std::uint32_t plain_corners;  ///< corners of the larger piece where both bodies are one convex piece of one
+                                ///< surface class all around; else 0
 };
 
 /// What a law is given: a range of pairs at time t_n. Host memory, read-only.
@@ -94,14 +99,14 @@ struct PairReport {
   double damping_power;  ///< J/m, damping force times displacement since t_{n-1}; never negative
 };
 
-/// What a law fills in, in host memory sized by the host. Loads and pair reports are zero before the call;
-/// the slots of a pair hold anything until the law writes those of the contacts it counts. It writes only at
-/// indices of the pairs it was given.
+/// What a law fills in, in host memory sized by the host. Nothing is zero before the call: the law writes the
+/// report of every pair, and of a pair with contacts the loads of all its corners and the slots it counts. It
+/// writes only at indices of the pairs it was given.
 struct ContactLoads {
   double* fx;       ///< [load] N/m at corners: PiecePair::load_start + position of the corner in the piece
   double* fy;       ///< [load] N/m
   double* history;  ///< [slot * doubles_per_contact] of t_n; separate from ContactBatch::history
-  ContactReport* reports;  ///< [slot]
+  ContactReport* reports;  ///< [slot], or nullptr where nobody wants to see them
   PairReport* pairs;       ///< [pair_count], like ContactBatch::pairs
 };
 

@@ -15,7 +15,7 @@ namespace talus {
 inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
 
 /// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
-inline constexpr std::uint32_t abi_number = 2;
+inline constexpr std::uint32_t abi_number = 3;
 
 inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
 
@@ -50,6 +50,7 @@ struct Library {
   std::uint32_t material_batch_size = sizeof(MaterialBatch);
   std::uint32_t body_shape_size = sizeof(BodyShape);
   std::uint32_t boundaries_size = sizeof(Boundaries);
+  std::uint32_t boundary_corner_size = sizeof(BoundaryCorner);
   const char* units = unit_system;
   const char* name = nullptr;
   const char* version = nullptr;

@@ -24,8 +24,8 @@ struct Piece {
   double offset_x, offset_y;
   std::uint32_t load_start;
 
-  double x(std::uint32_t corner) const { return boundaries.x[corner] + offset_x; }
-  double y(std::uint32_t corner) const { return boundaries.y[corner] + offset_y; }
+  double x(std::uint32_t corner) const { return boundaries.corner[corner].x + offset_x; }
+  double y(std::uint32_t corner) const { return boundaries.corner[corner].y + offset_y; }
   std::uint32_t after(std::uint32_t corner) const { return corner + 1 == end ? start : corner + 1; }
   std::uint32_t load(std::uint32_t corner) const { return load_start + corner - start; }
 };
@@ -46,7 +46,7 @@ std::optional<Depth> depth_in(const Piece& piece, double x, double y) {
     const double dx = x - piece.x(side), dy = y - piece.y(side), length = std::hypot(ex, ey);
     const double depth = (ex * dy - ey * dx) / length;
     if (depth <= 0) return std::nullopt;
-    if (depth < nearest.depth && piece.boundaries.surface[side] != talus::internal_side) {
+    if (depth < nearest.depth && piece.boundaries.corner[side].surface != talus::internal_side) {
       nearest = {side, depth, (ex * dx + ey * dy) / (length * length), ey / length, -ex / length};
     }
   }
@@ -62,12 +62,14 @@ class SoftCorner final : public talus::ContactModel {
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
       const talus::BodyPair& pair = batch.pairs[i];
+      loads.pairs[i] = {};
       for (std::uint32_t j = pair.piece_pair_start; j < pair.piece_pair_end; ++j) {
         const talus::PiecePair& pieces = batch.piece_pairs[j];
         const std::uint32_t* start = batch.boundaries.piece_start;
         const Piece a{batch.boundaries, start[pieces.a], start[pieces.a + 1], 0, 0, pieces.load_start};
         const Piece b{batch.boundaries, start[pieces.b], start[pieces.b + 1],
                       pair.offset_x,    pair.offset_y,   pieces.load_start + a.end - a.start};
+        for (std::uint32_t k = a.load_start; k < b.load(b.end); ++k) loads.fx[k] = loads.fy[k] = 0;
         push_out(a, b, 1, batch, pair, loads, loads.pairs[i]);
         push_out(b, a, -1, batch, pair, loads, loads.pairs[i]);
       }
@@ -84,10 +86,10 @@ class SoftCorner final : public talus::ContactModel {
                        const talus::BodyPair& pair, const ContactLoads& loads, talus::PairReport& report) {
     const talus::Interfaces& interfaces = batch.interfaces;
     for (std::uint32_t corner = slave.start; corner < slave.end; ++corner) {
-      const std::uint32_t surface = batch.boundaries.surface[corner];
+      const std::uint32_t surface = batch.boundaries.corner[corner].surface;
       const auto at = depth_in(master, slave.x(corner), slave.y(corner));
       if (!at || surface == talus::internal_side) continue;
-      const std::uint32_t opposite = batch.boundaries.surface[at->side];
+      const std::uint32_t opposite = batch.boundaries.corner[at->side].surface;
       const std::uint32_t row = interfaces.row[opposite * interfaces.surface_count + surface];
       const double stiffness = interfaces.value[row * interfaces.parameter_count];
       const double force = stiffness * at->depth * at->depth;
@@ -96,7 +98,7 @@ class SoftCorner final : public talus::ContactModel {
       add(loads, master.load(at->side), fx, fy, at->share - 1);
       add(loads, master.load(master.after(at->side)), fx, fy, -at->share);
 
-      if (report.contact_count < pair.slot_capacity) {
+      if (report.contact_count < pair.slot_capacity && loads.reports != nullptr) {
         loads.reports[pair.slot_start + report.contact_count] = {
             slave.x(corner), slave.y(corner), to_b * fx, to_b * fy, 0, 0, at->depth, 0};
       }

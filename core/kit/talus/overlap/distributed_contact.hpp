@@ -5,6 +5,7 @@
 #include <talus/overlap/cells.hpp>
 #include <talus/overlap/friction.hpp>
 #include <talus/overlap/grouping.hpp>
+#include <talus/overlap/lane_contact.hpp>
 
 #include <span>
 
@@ -16,21 +17,52 @@ namespace talus::overlap {
 template <class Law>
 class DistributedContact {
  public:
+  /// Plain bodies go side by side through the lanes; the others, and what the lanes hand back, one by one.
   void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
+    const auto one_by_one = [&](std::uint32_t i) {
+      evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
+    };
+    quadrilaterals_.clear();
+    octagons_.clear();
+    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+      const BodyPair& pair = batch.pairs[i];
+      if (pair.plain_corners == 0 || pair.contact_count > 1 || !fits_lanes(law)) {
+        one_by_one(i);
+      } else if (pair.plain_corners <= 4) {
+        quadrilaterals_.add(i);
+      } else if (pair.plain_corners <= 8) {
+        octagons_.add(i);
+      } else {
+        one_by_one(i);
+      }
+    }
+    quadrilaterals_.evaluate(law, batch, loads, one_by_one);
+    octagons_.evaluate(law, batch, loads, one_by_one);
+  }
+
+  /// The same one by one, whatever the bodies are.
+  void evaluate_one_by_one(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
     for (std::uint32_t i = 0; i < batch.pair_count; ++i)
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
   }
 
  private:
+  static bool fits_lanes(const Law& law) {
+    if constexpr (Law::frictional) return law.rule() == FrictionRule::return_mapping;
+    return true;
+  }
+
   void evaluate_pair(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
                      const BodyPair& pair, PairReport& report) {
     const std::uint32_t overlaps = finder_.find(batch, pair);
     const std::uint32_t groups = finder_.group();
+    report = {};
     report.contact_count = groups;
     if constexpr (Law::frictional) carry_history(batch, pair, report);
     if (overlaps == 0) return;
 
     const LoadSink sink{loads.fx, loads.fy};
+    sink.clear(batch, pair);
     const Overlap& first = finder_.overlaps()[0];
     among_strips_ = first.piece[0].is_strip() || first.piece[1].is_strip();
     balance_ = {};
@@ -58,7 +90,8 @@ class DistributedContact {
         if (g < pair.slot_capacity)
           write_history(history, loads.history + (pair.slot_start + g) * friction_doubles);
       }
-      if (g < pair.slot_capacity) loads.reports[pair.slot_start + g] = contact_report(tangential, slip);
+      if (g < pair.slot_capacity && loads.reports != nullptr)
+        loads.reports[pair.slot_start + g] = contact_report(tangential, slip);
     }
     if (among_strips_ && last_resort_.load > 0) close_balance(sink, last_resort_);
   }
@@ -442,6 +475,8 @@ class DistributedContact {
     return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
   }
 
+  LaneContact<Law, 4> quadrilaterals_;
+  LaneContact<Law, 8> octagons_;
   OverlapGroups finder_;
   CellDivider divider_;
   std::vector<Cell> cells_;

@@ -3,6 +3,8 @@
 #include <talus/contact_model.hpp>
 #include <talus/overlap/polygon.hpp>
 
+#include <algorithm>
+
 namespace talus::overlap {
 
 /// A convex piece of a body seen in the frame of its pair: a view of the host's arrays.
@@ -10,7 +12,7 @@ class Piece {
  public:
   Piece() = default;
   Piece(const Boundaries& boundaries, std::uint32_t piece, Point offset, std::uint32_t first_load)
-      : boundaries_(&boundaries),
+      : corners_(boundaries.corner + boundaries.piece_start[piece]),
         first_(boundaries.piece_start[piece]),
         size_(boundaries.piece_start[piece + 1] - first_),
         offset_(offset),
@@ -24,18 +26,14 @@ class Piece {
   std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
   std::uint32_t previous(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
 
-  Point at(std::uint32_t i) const {
-    return {boundaries_->x[first_ + i] + offset_.x, boundaries_->y[first_ + i] + offset_.y};
-  }
-  Point velocity(std::uint32_t i) const { return {boundaries_->vx[first_ + i], boundaries_->vy[first_ + i]}; }
+  Point at(std::uint32_t i) const { return {corner(i).x + offset_.x, corner(i).y + offset_.y}; }
+  Point velocity(std::uint32_t i) const { return {corner(i).vx, corner(i).vy}; }
   /// Unit tangent of side i, from corner i to the next.
-  Point tangent(std::uint32_t i) const {
-    return {boundaries_->tangent_x[first_ + i], boundaries_->tangent_y[first_ + i]};
-  }
+  Point tangent(std::uint32_t i) const { return {corner(i).tangent_x, corner(i).tangent_y}; }
   Point normal(std::uint32_t side) const { return {tangent(side).y, -tangent(side).x}; }  ///< outward
-  double length(std::uint32_t side) const { return boundaries_->length[first_ + side]; }
-  std::uint32_t surface(std::uint32_t side) const { return boundaries_->surface[first_ + side]; }
-  std::uint32_t cut(std::uint32_t side) const { return boundaries_->cut[first_ + side]; }
+  double length(std::uint32_t side) const { return corner(side).length; }
+  std::uint32_t surface(std::uint32_t side) const { return corner(side).surface; }
+  std::uint32_t cut(std::uint32_t side) const { return corner(side).cut; }
   bool is_cut(std::uint32_t side) const { return surface(side) == internal_side; }
   /// A side that carries load: boundary, with a length.
   bool real(std::uint32_t side) const { return !is_cut(side) && length(side) > 0; }
@@ -57,7 +55,9 @@ class Piece {
   }
 
  private:
-  const Boundaries* boundaries_ = nullptr;
+  const BoundaryCorner& corner(std::uint32_t i) const { return corners_[i]; }
+
+  const BoundaryCorner* corners_ = nullptr;
   std::uint32_t first_ = 0, size_ = 0;
   Point offset_{0, 0};
   bool is_strip_ = false;
@@ -70,6 +70,18 @@ class Piece {
 struct LoadSink {
   double* fx;
   double* fy;
+
+  /// All corners of a pair's pieces free of load.
+  void clear(const ContactBatch& batch, const BodyPair& pair) const {
+    for (std::uint32_t i = pair.piece_pair_start; i < pair.piece_pair_end; ++i) {
+      const PiecePair& pieces = batch.piece_pairs[i];
+      const std::uint32_t* start = batch.boundaries.piece_start;
+      const std::uint32_t count =
+          start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];
+      std::fill_n(fx + pieces.load_start, count, 0.0);
+      std::fill_n(fy + pieces.load_start, count, 0.0);
+    }
+  }
 
   void at_corner(const Piece& piece, std::uint32_t corner, Point force) const {
     fx[piece.load_start + corner] += force.x;

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "model/motion.hpp"
+
+namespace talus::kernels {
+
+// Loops over bodies that move as a whole, compiled for several instruction sets (see CMakeLists.txt beside).
+// Each is that of IEEE 754 in a fixed order, so all give the same bits.
+
+/// What a step reads of a body.
+struct Block {
+  double mass = 0;                                     ///< kg per metre; 0: not a body that moves as a whole
+  double inertia = 0;                                  ///< kg m, of a rigid body
+  double moment_xx = 0, moment_xy = 0, moment_yy = 0;  ///< ρJ, kg m
+  double inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  ///< (ρJ)⁻¹
+  std::uint32_t corner_begin = 0;
+  std::uint32_t corner_count = 0;  ///< of a body that is one convex piece; else 0
+  bool rigid = false;
+  bool free = false;  ///< nothing of its motion is prescribed
+};
+
+struct SpeedExtremes {
+  double squared = 0;                                   ///< m²/s², the largest
+  double sum = 0;                                       ///< m²/s², no number if any is none
+  double low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< m/s
+  bool any = false;
+
+  void add(const SpeedExtremes& other);
+};
+
+/// Loads of one pair on the corners of a piece.
+struct PieceLoads {
+  std::uint32_t load;  ///< index of the first
+  std::uint32_t pair;  ///< whose contact_count tells whether there are any
+  std::uint32_t piece;
+};
+
+/// How velocities are updated: v₊ = keep v₋ + gain (f/m + g); see StepConditions.
+struct BlockUpdate {
+  double keep, gain;
+  double gravity_x, gravity_y;
+  double share_of_after;  ///< in the velocity at t_n
+  bool even_steps;        ///< the step behind is as long as the one ahead
+  bool from_behind;       ///< of uneven ones: the kinetic energy is that of the step behind
+  bool damped;
+};
+
+/// Sums over bodies.
+struct BlockSums {
+  double kinetic = 0;                     ///< J/m
+  double momentum_x = 0, momentum_y = 0;  ///< kg/s, m v₋
+  double damped = 0;                      ///< J/m, twice the kinetic energy at t_n, where damped
+};
+
+struct BlockKernels {
+  /// Corners and sides of bodies [begin, end) that are one convex piece follow their motion (Eq. 11).
+  void (*follow)(const Block* blocks, const BodyMotion* motion, const double* reference_x,
+                 const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
+                 SpeedExtremes& speeds);
+  /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
+  void (*move)(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end);
+  /// Adds the loads on the `count` corners of a body that is one convex piece, contact after contact
+  /// (Eqs. 46–48).
+  void (*add_loads)(std::uint32_t count, const double* reference_x, const double* reference_y,
+                    const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const double* fx,
+                    const double* fy, BodyForce& force);
+  /// Eqs. 23–24 for the free bodies of [begin, end). `middle` gets the velocities at t_n, unless null.
+  void (*accelerate)(const Block* blocks, const BodyForce* forces, const BlockUpdate& update,
+                     BodyMotion* motion, BodyMotion* middle, std::size_t begin, std::size_t end,
+                     BlockSums& sums);
+};
+
+}  // namespace talus::kernels

@@ -1,0 +1,40 @@
+#include "kernels/level.hpp"
+
+namespace talus::kernels {
+
+namespace scalar {
+extern const BlockKernels block_kernels;
+}
+#ifdef TALUS_KERNEL_LEVELS
+namespace avx2 {
+extern const BlockKernels block_kernels;
+}
+namespace avx512 {
+extern const BlockKernels block_kernels;
+}
+#endif
+
+const BlockKernels& block_kernels(SimdLevel level) {
+#ifdef TALUS_KERNEL_LEVELS
+  if (level == SimdLevel::avx512) return avx512::block_kernels;
+  if (level == SimdLevel::avx2) return avx2::block_kernels;
+#endif
+  (void)level;
+  return scalar::block_kernels;
+}
+
+void SpeedExtremes::add(const SpeedExtremes& other) {
+  if (!other.any) return;
+  if (!any) {
+    *this = other;
+    return;
+  }
+  squared = squared > other.squared ? squared : other.squared;
+  sum += other.sum;
+  low_x = low_x < other.low_x ? low_x : other.low_x;
+  high_x = high_x > other.high_x ? high_x : other.high_x;
+  low_y = low_y < other.low_y ? low_y : other.low_y;
+  high_y = high_y > other.high_y ? high_y : other.high_y;
+}
+
+}  // namespace talus::kernels

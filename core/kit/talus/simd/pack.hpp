@@ -1,0 +1,318 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#include <immintrin.h>
+#define TALUS_SIMD_LEVEL avx512
+#elif defined(__AVX2__)
+#include <immintrin.h>
+#define TALUS_SIMD_LEVEL avx2
+#else
+#define TALUS_SIMD_LEVEL scalar
+#endif
+
+/// Doubles side by side, as many as the instruction set of the compilation holds: 8, 4 or 1. Every operation
+/// is that of IEEE 754 in each lane, so a program gives the same bits at each level. The inline namespace
+/// keeps code compiled for different levels apart within one program.
+namespace talus::simd {
+inline namespace TALUS_SIMD_LEVEL {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+
+inline constexpr int lanes = 8;
+
+struct Mask {
+  __mmask8 bits;
+};
+struct Pack {
+  __m512d value;
+  Pack() = default;
+  Pack(__m512d v) : value(v) {}
+  Pack(double v) : value(_mm512_set1_pd(v)) {}
+};
+
+inline Pack load(const double* from) {
+  return _mm512_loadu_pd(from);
+}
+inline void store(Pack p, double* to) {
+  _mm512_storeu_pd(to, p.value);
+}
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
+inline void gather_rows(const double* const* from, Pack* to) {
+  const auto two = [&](int lane) {  // of this lane and the one four further on
+    return _mm512_maskz_insertf64x4(0xFF, _mm512_castpd256_pd512(_mm256_loadu_pd(from[lane])),
+                                    _mm256_loadu_pd(from[lane + 4]), 1);
+  };
+  const __m512d p = two(0), q = two(1), r = two(2), s = two(3);
+  const __m512d even = _mm512_maskz_unpacklo_pd(0xFF, p, q), odd = _mm512_maskz_unpackhi_pd(0xFF, p, q);
+  const __m512d more_even = _mm512_maskz_unpacklo_pd(0xFF, r, s),
+                more_odd = _mm512_maskz_unpackhi_pd(0xFF, r, s);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  to[0] = _mm512_permutex2var_pd(even, low, more_even);
+  to[1] = _mm512_permutex2var_pd(odd, low, more_odd);
+  to[2] = _mm512_permutex2var_pd(even, high, more_even);
+  to[3] = _mm512_permutex2var_pd(odd, high, more_odd);
+}
+inline Pack operator+(Pack p, Pack q) {
+  return _mm512_add_pd(p.value, q.value);
+}
+inline Pack operator-(Pack p, Pack q) {
+  return _mm512_sub_pd(p.value, q.value);
+}
+inline Pack operator*(Pack p, Pack q) {
+  return _mm512_mul_pd(p.value, q.value);
+}
+inline Pack operator/(Pack p, Pack q) {
+  return _mm512_div_pd(p.value, q.value);
+}
+inline Pack operator-(Pack p) {
+  return _mm512_xor_pd(p.value, _mm512_set1_pd(-0.0));
+}
+inline Pack sqrt(Pack p) {
+  return _mm512_maskz_sqrt_pd(0xFF, p.value);
+}
+inline Pack abs(Pack p) {
+  return _mm512_abs_pd(p.value);
+}
+inline Pack min(Pack p, Pack q) {
+  return _mm512_maskz_min_pd(0xFF, p.value, q.value);
+}
+inline Pack max(Pack p, Pack q) {
+  return _mm512_maskz_max_pd(0xFF, p.value, q.value);
+}
+inline Mask operator<(Pack p, Pack q) {
+  return {_mm512_cmp_pd_mask(p.value, q.value, _CMP_LT_OQ)};
+}
+inline Mask operator<=(Pack p, Pack q) {
+  return {_mm512_cmp_pd_mask(p.value, q.value, _CMP_LE_OQ)};
+}
+inline Mask operator==(Pack p, Pack q) {
+  return {_mm512_cmp_pd_mask(p.value, q.value, _CMP_EQ_OQ)};
+}
+inline Mask operator&(Mask p, Mask q) {
+  return {static_cast<__mmask8>(p.bits & q.bits)};
+}
+inline Mask operator|(Mask p, Mask q) {
+  return {static_cast<__mmask8>(p.bits | q.bits)};
+}
+inline Mask operator!(Mask p) {
+  return {static_cast<__mmask8>(~p.bits)};
+}
+inline Pack select(Mask m, Pack yes, Pack no) {
+  return _mm512_mask_blend_pd(m.bits, no.value, yes.value);
+}
+/// Bit i says lane i.
+inline unsigned bits(Mask m) {
+  return m.bits;
+}
+
+#elif defined(__AVX2__)
+
+inline constexpr int lanes = 4;
+
+struct Mask {
+  __m256d value;
+};
+struct Pack {
+  __m256d value;
+  Pack() = default;
+  Pack(__m256d v) : value(v) {}
+  Pack(double v) : value(_mm256_set1_pd(v)) {}
+};
+
+inline Pack load(const double* from) {
+  return _mm256_loadu_pd(from);
+}
+inline void store(Pack p, double* to) {
+  _mm256_storeu_pd(to, p.value);
+}
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
+inline void gather_rows(const double* const* from, Pack* to) {
+  const __m256d p = _mm256_loadu_pd(from[0]), q = _mm256_loadu_pd(from[1]), r = _mm256_loadu_pd(from[2]),
+                s = _mm256_loadu_pd(from[3]);
+  const __m256d even = _mm256_unpacklo_pd(p, q), odd = _mm256_unpackhi_pd(p, q);
+  const __m256d more_even = _mm256_unpacklo_pd(r, s), more_odd = _mm256_unpackhi_pd(r, s);
+  to[0] = _mm256_permute2f128_pd(even, more_even, 0x20);
+  to[1] = _mm256_permute2f128_pd(odd, more_odd, 0x20);
+  to[2] = _mm256_permute2f128_pd(even, more_even, 0x31);
+  to[3] = _mm256_permute2f128_pd(odd, more_odd, 0x31);
+}
+inline Pack operator+(Pack p, Pack q) {
+  return _mm256_add_pd(p.value, q.value);
+}
+inline Pack operator-(Pack p, Pack q) {
+  return _mm256_sub_pd(p.value, q.value);
+}
+inline Pack operator*(Pack p, Pack q) {
+  return _mm256_mul_pd(p.value, q.value);
+}
+inline Pack operator/(Pack p, Pack q) {
+  return _mm256_div_pd(p.value, q.value);
+}
+inline Pack operator-(Pack p) {
+  return _mm256_xor_pd(p.value, _mm256_set1_pd(-0.0));
+}
+inline Pack sqrt(Pack p) {
+  return _mm256_sqrt_pd(p.value);
+}
+inline Pack abs(Pack p) {
+  return _mm256_andnot_pd(_mm256_set1_pd(-0.0), p.value);
+}
+inline Pack min(Pack p, Pack q) {
+  return _mm256_min_pd(p.value, q.value);
+}
+inline Pack max(Pack p, Pack q) {
+  return _mm256_max_pd(p.value, q.value);
+}
+inline Mask operator<(Pack p, Pack q) {
+  return {_mm256_cmp_pd(p.value, q.value, _CMP_LT_OQ)};
+}
+inline Mask operator<=(Pack p, Pack q) {
+  return {_mm256_cmp_pd(p.value, q.value, _CMP_LE_OQ)};
+}
+inline Mask operator==(Pack p, Pack q) {
+  return {_mm256_cmp_pd(p.value, q.value, _CMP_EQ_OQ)};
+}
+inline Mask operator&(Mask p, Mask q) {
+  return {_mm256_and_pd(p.value, q.value)};
+}
+inline Mask operator|(Mask p, Mask q) {
+  return {_mm256_or_pd(p.value, q.value)};
+}
+inline Mask operator!(Mask p) {
+  return {_mm256_xor_pd(p.value, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
+}
+inline Pack select(Mask m, Pack yes, Pack no) {
+  return _mm256_blendv_pd(no.value, yes.value, m.value);
+}
+/// Bit i says lane i.
+inline unsigned bits(Mask m) {
+  return static_cast<unsigned>(_mm256_movemask_pd(m.value));
+}
+
+#else
+
+inline constexpr int lanes = 1;
+
+struct Mask {
+  bool value;
+};
+struct Pack {
+  double value;
+  Pack() = default;
+  Pack(double v) : value(v) {}
+};
+
+inline Pack load(const double* from) {
+  return *from;
+}
+inline void store(Pack p, double* to) {
+  *to = p.value;
+}
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
+inline void gather_rows(const double* const* from, Pack* to) {
+  for (int i = 0; i < 4; ++i) to[i] = from[0][i];
+}
+inline Pack operator+(Pack p, Pack q) {
+  return p.value + q.value;
+}
+inline Pack operator-(Pack p, Pack q) {
+  return p.value - q.value;
+}
+inline Pack operator*(Pack p, Pack q) {
+  return p.value * q.value;
+}
+inline Pack operator/(Pack p, Pack q) {
+  return p.value / q.value;
+}
+inline Pack operator-(Pack p) {
+  return -p.value;
+}
+inline Pack sqrt(Pack p) {
+  return std::sqrt(p.value);
+}
+inline Pack abs(Pack p) {
+  return std::fabs(p.value);
+}
+inline Pack min(Pack p, Pack q) {
+  return p.value < q.value ? p.value : q.value;
+}
+inline Pack max(Pack p, Pack q) {
+  return p.value > q.value ? p.value : q.value;
+}
+inline Mask operator<(Pack p, Pack q) {
+  return {p.value < q.value};
+}
+inline Mask operator<=(Pack p, Pack q) {
+  return {p.value <= q.value};
+}
+inline Mask operator==(Pack p, Pack q) {
+  return {p.value == q.value};
+}
+inline Mask operator&(Mask p, Mask q) {
+  return {p.value && q.value};
+}
+inline Mask operator|(Mask p, Mask q) {
+  return {p.value || q.value};
+}
+inline Mask operator!(Mask p) {
+  return {!p.value};
+}
+inline Pack select(Mask m, Pack yes, Pack no) {
+  return m.value ? yes : no;
+}
+/// Bit i says lane i.
+inline unsigned bits(Mask m) {
+  return m.value ? 1 : 0;
+}
+
+#endif
+
+inline Mask operator>(Pack p, Pack q) {
+  return q < p;
+}
+inline Mask operator>=(Pack p, Pack q) {
+  return q <= p;
+}
+inline bool any(Mask m) {
+  return bits(m) != 0;
+}
+inline Mask nowhere() {
+  return Pack(0.0) < Pack(0.0);
+}
+inline Pack only_where(Mask m, Pack p) {
+  return select(m, p, 0.0);
+}
+inline Pack clamp(Pack p, Pack low, Pack high) {
+  return min(max(p, low), high);
+}
+
+/// A point or vector in each lane.
+struct Packs2 {
+  Pack x, y;
+};
+inline Packs2 operator+(Packs2 p, Packs2 q) {
+  return {p.x + q.x, p.y + q.y};
+}
+inline Packs2 operator-(Packs2 p, Packs2 q) {
+  return {p.x - q.x, p.y - q.y};
+}
+inline Packs2 operator*(Pack s, Packs2 p) {
+  return {s * p.x, s * p.y};
+}
+inline Pack dot(Packs2 p, Packs2 q) {
+  return p.x * q.x + p.y * q.y;
+}
+inline Pack cross(Packs2 p, Packs2 q) {
+  return p.x * q.y - p.y * q.x;
+}
+inline Packs2 select(Mask m, Packs2 yes, Packs2 no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y)};
+}
+
+}  // namespace TALUS_SIMD_LEVEL
+}  // namespace talus::simd

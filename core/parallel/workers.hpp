@@ -1,0 +1,56 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace talus {
+
+/// Threads that share loops many times per millisecond. They wait between loops by spinning, then by giving
+/// the core away, then asleep: a loop costs tens of nanoseconds to hand out while a run steps, and nothing is
+/// burnt while it writes.
+class Workers {
+ public:
+  /// The caller of over() is one of the `threads`.
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  int threads() const { return static_cast<int>(others_.size()) + 1; }
+
+  /// Calls task(chunk, begin, end) for chunks of `size` that cover [0, count), each on some thread. Which one
+  /// cannot be seen in a result that is kept chunk by chunk. Tasks must not throw.
+  template <class Task>
+  void over(std::size_t count, std::size_t size, const Task& task) {
+    const std::size_t chunks = (count + size - 1) / size;
+    const auto run = [&](std::size_t chunk) {
+      const std::size_t begin = chunk * size, end = begin + size < count ? begin + size : count;
+      task(chunk, begin, end);
+    };
+    if (others_.empty() || chunks < 2) {
+      for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
+      return;
+    }
+    share(
+        chunks,
+        [](const void* context, std::size_t chunk) { (*static_cast<decltype(&run)>(context))(chunk); }, &run);
+  }
+
+ private:
+  using Call = void (*)(const void* context, std::size_t chunk);
+  void share(std::size_t chunks, Call call, const void* context);
+  void serve(std::size_t number);
+  void take_part(std::size_t number);
+
+  std::size_t chunks_ = 0;
+  Call call_ = nullptr;
+  const void* context_ = nullptr;
+  std::atomic<std::uint32_t> round_{0};    ///< counts the loops handed out
+  std::atomic<std::uint32_t> working_{0};  ///< others still at the present loop
+  std::atomic<bool> closing_{false};
+  std::vector<std::thread> others_;
+};
+
+}  // namespace talus

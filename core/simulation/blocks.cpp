@@ -1,0 +1,109 @@
+#include "simulation/blocks.hpp"
+
+#include "simulation/velocity_update.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+kernels::SpeedExtremes speeds_of(const MotionState& motion, const Body& body) {
+  kernels::SpeedExtremes all;
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
+    all.add({squared, squared, vx, vx, vy, vy, true});
+  }
+  return all;
+}
+
+}  // namespace
+
+Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers)
+    : kernels_(kernels::block_kernels(level)), workers_(workers) {
+  for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    kernels::Block& block = blocks_.emplace_back();
+    block.corner_begin = body.corner_begin;
+    const bool whole = body.kinematics == Kinematics::rigid || body.kinematics == Kinematics::affine;
+    if (whole) {
+      const double density = body.mass / body.moments.area;
+      block.mass = body.mass;
+      block.inertia = body.inertia;
+      block.moment_xx = density * body.moments.xx;
+      block.moment_xy = density * body.moments.xy;
+      block.moment_yy = density * body.moments.yy;
+      block.inverse_xx = body.inverse_moment.xx;
+      block.inverse_xy = body.inverse_moment.xy;
+      block.inverse_yy = body.inverse_moment.yy;
+      block.rigid = body.kinematics == Kinematics::rigid;
+      if (body.piece_end == body.piece_begin + 1) block.corner_count = body.corner_end - body.corner_begin;
+    }
+    some_fixed_ = some_fixed_ || body.kinematics == Kinematics::fixed;
+    if (body.kinematics != Kinematics::fixed && block.corner_count == 0) others_.push_back(i);
+  }
+  const std::size_t chunks = (blocks_.size() + chunk - 1) / chunk;
+  speeds_.resize(chunks);
+  sums_.resize(chunks);
+}
+
+void Blocks::set_supports(std::span<const Support> supports) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Support& support = supports[i];
+    blocks_[i].free = blocks_[i].mass > 0 && !support.x && !support.y && !support.rotation;
+  }
+}
+
+void Blocks::move(double dt, MotionState& motion) {
+  workers_.over(blocks_.size(), chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    kernels_.move(blocks_.data(), dt, motion.bodies.data(), begin, end);
+  });
+}
+
+MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
+  workers_.over(blocks_.size(), chunk, [&](std::size_t number, std::size_t begin, std::size_t end) {
+    kernels::SpeedExtremes here;
+    kernels_.follow(blocks_.data(), motion.bodies.data(), model.reference_x.data(), model.reference_y.data(),
+                    motion.corners.data(), begin, end, here);
+    speeds_[number] = here;
+  });
+  kernels::SpeedExtremes all;
+  for (const kernels::SpeedExtremes& part : speeds_) all.add(part);
+  for (const std::uint32_t body : others_) {
+    motion.move_boundary_of(model, body);
+    all.add(speeds_of(motion, model.bodies[body]));
+  }
+  if (!all.any) return {};
+  if (some_fixed_) all.add({0, 0, 0, 0, 0, 0, true});
+  if (!std::isfinite(all.sum)) return {std::numeric_limits<double>::quiet_NaN(), 0};
+  const double dx = all.high_x - all.low_x, dy = all.high_y - all.low_y;
+  return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy)};
+}
+
+void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, BodyMotion* middle,
+                        AccelerationWork& work) {
+  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
+  const double half_damping = conditions.damping * dt / 2;
+  const kernels::BlockUpdate update{(1 - half_damping) / (1 + half_damping),
+                                    dt / (1 + half_damping),
+                                    conditions.gravity.x,
+                                    conditions.gravity.y,
+                                    share_of_after(conditions),
+                                    conditions.dt_behind == conditions.dt_ahead,
+                                    conditions.dt_behind > 0,
+                                    conditions.damping > 0};
+  workers_.over(blocks_.size(), chunk, [&](std::size_t number, std::size_t begin, std::size_t end) {
+    kernels::BlockSums here;
+    kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), middle, begin,
+                        end, here);
+    sums_[number] = here;
+  });
+  for (const kernels::BlockSums& part : sums_) {
+    work.kinetic += part.kinetic;
+    work.external_work += gravity_work(conditions, {part.momentum_x, part.momentum_y});
+    work.damping_loss += conditions.damping * part.damped * conditions.dt_behind / 2;
+    work.damping_loss_ahead += conditions.damping * part.damped * conditions.dt_ahead / 2;
+  }
+}
+
+}  // namespace talus

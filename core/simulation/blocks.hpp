@@ -1,0 +1,38 @@
+#pragma once
+
+#include "kernels/level.hpp"
+#include "parallel/workers.hpp"
+#include "simulation/integrator.hpp"
+
+namespace talus {
+
+/// The bodies that move as a whole, as the loops of the step read them: their motion, and the boundary that
+/// follows it. Everything else about a body is in the Model.
+class Blocks {
+ public:
+  Blocks(const Model& model, SimdLevel level, Workers& workers);
+
+  /// From now on these supports hold; bodies with any are left to the caller.
+  void set_supports(std::span<const Support> supports);
+  bool is_free(std::uint32_t body) const { return blocks_[body].free; }
+
+  void move(double dt, MotionState& motion);  ///< Eq. 22
+  /// Boundaries of all bodies follow (Eq. 11); returns how fast they are.
+  MotionState::Speeds follow(const Model& model, MotionState& motion);
+  /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
+  void accelerate(const StepConditions& conditions, MotionState& motion, BodyMotion* middle,
+                  AccelerationWork& work);
+
+ private:
+  static constexpr std::size_t chunk = 64;  ///< bodies; sums are kept apart by chunks
+
+  const kernels::BlockKernels& kernels_;
+  Workers& workers_;
+  std::vector<kernels::Block> blocks_;
+  std::vector<std::uint32_t> others_;  ///< moving bodies whose boundary the kernels do not know
+  bool some_fixed_ = false;
+  std::vector<kernels::SpeedExtremes> speeds_;
+  std::vector<kernels::BlockSums> sums_;
+};
+
+}  // namespace talus
