@@ -18,8 +18,9 @@ Registry& registry() {
   return shipped;
 }
 
-/// What a generator of the shipped scenes writes.
-std::string generate(const std::string& generator) {
+}  // namespace
+
+std::string generated(const std::string& generator) {
   const std::string command = "'" TALUS_PYTHON "' '" TALUS_SCENES "'/generate/" + generator;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("could not start: " + command);
@@ -30,8 +31,6 @@ std::string generate(const std::string& generator) {
   return text;
 }
 
-}  // namespace
-
 Scene scene_of_text(const std::string& text) {
   return read_scene_text(text, "benchmark", registry());
 }
@@ -39,7 +38,7 @@ Scene scene_of_text(const std::string& text) {
 Scene scene_of(const Load& load) {
   ReadOptions options;
   options.overrides = {{"/contact/model", load.law}};
-  Scene scene = read_scene_text(generate(load.generator), load.generator, registry(), options);
+  Scene scene = read_scene_text(generated(load.generator), load.generator, registry(), options);
   scene.time.end = 1000;
   scene.output.frames.reset();
   if (load.one_sided) {

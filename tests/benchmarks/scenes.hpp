@@ -13,6 +13,10 @@ struct Load {
   bool one_sided = false;  ///< roles by priority instead of both roles: one evaluation of each overlap
 };
 
+/// What a script of scenes/generate writes, by its name and arguments. Throws std::runtime_error when it
+/// fails.
+std::string generated(const std::string& generator);
+
 /// The scene of a load, with no end in sight. Throws std::runtime_error when the script fails.
 Scene scene_of(const Load& load);
 

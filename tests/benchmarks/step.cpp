@@ -1,6 +1,6 @@
-// Time per block and step of whole runs, as users meet them. See README.md beside.
+#include "step.hpp"
 
-#include "lattice.hpp"
+#include "counts.hpp"
 #include "scenes.hpp"
 
 #include "simulation/simulation.hpp"
@@ -11,52 +11,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+namespace talus::benchmarks {
 namespace {
-
-using namespace talus;
-using benchmarks::Load;
 
 constexpr double block_steps_per_iteration = 2e5;
 constexpr int iterations = 5;  ///< fixed, so that every machine measures the same stretch of the run
 
-/// A scene, and how long the load takes to run from its base to its top, twice over.
-struct Size {
-  const char* name;
-  const char* generator;
+/// A scene, and how long it runs before it is measured.
+struct Stack {
+  std::string name, generator;
   double warm_up;  ///< s
-};
-
-constexpr Size sizes[] = {
-    {"column/10", "column.py --blocks 10", 0.02},
-    {"column/100", "column.py --blocks 100", 0.15},
-    {"brick_wall/106", "brick_wall.py --courses 10 --bricks 10", 0.02},
-    {"brick_wall/411", "brick_wall.py --courses 20 --bricks 20", 0.03},
-    {"brick_wall/916", "brick_wall.py --courses 30 --bricks 30", 0.04},
-};
-
-struct Variant {
-  const char* name;
-  const char* law;
-  bool one_sided;
-};
-
-constexpr Variant variants[] = {
-    {"overlap_area", "overlap_area", false},
-    {"overlap_area_one_sided", "overlap_area", true},
-    {"vertex_edge", "vertex_edge", false},
-    {"frictionless", "frictionless", false},
 };
 
 /// Each iteration advances a fixed number of steps of the automatic size.
 void measure(benchmark::State& state, const Load& load, double warm_up, int threads) {
-  Scene scene = benchmarks::scene_of(load);
+  Scene scene = scene_of(load);
+  scene.resolved.clear();
+  forget_peak();
+  const std::size_t before_model = resident_memory();
+  double blocks = 0;
+  for (const SceneBody& body : scene.bodies) blocks += body.fixed ? 0 : 1;
   const double dt = scene.time.safety * Simulation(scene, {}).critical_dt();
   scene.time.dt = dt;
-  std::size_t blocks = 0;
-  for (const SceneBody& body : scene.bodies) blocks += body.fixed ? 0 : 1;
-  const double steps = std::ceil(block_steps_per_iteration / static_cast<double>(blocks));
+  const double steps = std::ceil(block_steps_per_iteration / blocks);
   scene.output.history = steps * dt;
 
   Simulation simulation(scene, {.threads = threads});
@@ -66,33 +46,80 @@ void measure(benchmark::State& state, const Load& load, double warm_up, int thre
     (void)iteration;
     simulation.advance();
   }
-  const auto done = static_cast<double>(blocks * (simulation.summary().steps - before));
+  const auto steps_done = static_cast<double>(simulation.summary().steps - before);
+  const std::size_t peak = std::max(peak_memory(), before_model);
+  const PairCounts pairs = count_pairs(simulation);
+  const auto overlapping = static_cast<double>(pairs.overlapping);
   using benchmark::Counter;
-  state.counters["block_steps_per_second"] = Counter(done, Counter::kIsRate);
-  state.counters["ns_per_block_step"] = Counter(done * 1e-9, Counter::kIsRate | Counter::kInvert);
+  const auto nanoseconds_per = [](double count) {
+    return Counter(count * 1e-9, Counter::kIsRate | Counter::kInvert);
+  };
+  state.counters["block_steps_per_second"] = Counter(blocks * steps_done, Counter::kIsRate);
+  state.counters["ns_per_block_step"] = nanoseconds_per(blocks * steps_done);
+  if (pairs.overlapping > 0)
+    state.counters["ns_per_contact_step"] = nanoseconds_per(overlapping * steps_done);
+  state.counters["blocks"] = blocks;
+  state.counters["overlapping_pairs"] = overlapping;
+  state.counters["candidate_pairs"] = static_cast<double>(pairs.candidates);
+  state.counters["bytes_per_block"] = static_cast<double>(peak - before_model) / blocks;
+  state.counters["mean_speed"] = mean_speed(simulation);
+}
+
+void register_case(const std::string& name, const Load& load, double warm_up) {
+  for (const int threads : {1, 2}) {
+    auto* registered = benchmark::RegisterBenchmark(
+        fmt::format("{}/threads:{}", name, threads).c_str(),
+        [load, warm_up, threads](benchmark::State& state) { measure(state, load, warm_up, threads); });
+    registered->Iterations(iterations)->Unit(benchmark::kMillisecond);
+    // One thread is measured by its own time, which other programs on the machine disturb less.
+    if (threads > 1) registered->UseRealTime();
+  }
+}
+
+/// Scenes at rest, with each law; the load runs from their base to their top, twice over, before the
+/// measurement.
+void register_laws() {
+  const Stack stacks[] = {
+      {"column/10", "column.py --blocks 10", 0.02},
+      {"column/100", "column.py --blocks 100", 0.15},
+      {"brick_wall/106", "brick_wall.py --courses 10 --bricks 10", 0.02},
+      {"brick_wall/411", "brick_wall.py --courses 20 --bricks 20", 0.03},
+      {"brick_wall/916", "brick_wall.py --courses 30 --bricks 30", 0.04},
+  };
+  for (const Stack& stack : stacks) {
+    for (const char* law : {"overlap_area", "vertex_edge", "frictionless"})
+      register_case(fmt::format("{}/{}", stack.name, law), {stack.generator, law, false}, stack.warm_up);
+    register_case(stack.name + "/overlap_area_one_sided", {stack.generator, "overlap_area", true},
+                  stack.warm_up);
+  }
+}
+
+/// Many blocks, deformable and rigid, with both roles or one; all of them touch soon after the start.
+void register_crowds() {
+  for (const char* cover : {"block", "rigid"}) {
+    for (const int blocks : {504, 5000, 50000}) {
+      for (const char* roles : {"symmetric", "priority"}) {
+        register_case(fmt::format("{}sliding/{}/{}/{}", blocks > 5000 ? large : "", blocks, cover, roles),
+                      {fmt::format("sliding.py --blocks {} --cover {} --roles {}", blocks, cover, roles),
+                       "overlap_area", false},
+                      blocks > 5000 ? 5e-4 : 2e-3);
+      }
+    }
+    for (const int blocks : {5000, 50000, 500000}) {
+      const char* shape = blocks > 50000 ? "rectangle" : "jittered";
+      register_case(fmt::format("{}pile/{}/{}/symmetric", blocks > 5000 ? large : "", blocks, cover),
+                    {fmt::format("pile.py --blocks {} --shape {} --cover {}", blocks, shape, cover),
+                     "overlap_area", false},
+                    blocks > 5000 ? 5e-4 : 2e-3);
+    }
+  }
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  for (const Size& size : sizes) {
-    for (const Variant& variant : variants) {
-      for (const int threads : {1, 2}) {
-        const Load load{size.generator, variant.law, variant.one_sided};
-        const double warm_up = size.warm_up;
-        benchmark::RegisterBenchmark(
-            fmt::format("{}/{}/threads:{}", size.name, variant.name, threads).c_str(),
-            [load, warm_up, threads](benchmark::State& state) { measure(state, load, warm_up, threads); })
-            ->Iterations(iterations)
-            ->UseRealTime()
-            ->Unit(benchmark::kMillisecond);
-      }
-    }
-  }
-  benchmarks::register_lattices();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+void register_steps() {
+  register_laws();
+  register_crowds();
 }
+
+}  // namespace talus::benchmarks

@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Measures everything that docs/benchmarks.md shows and writes its tables anew, between their markers.
+
+  measure.py                                    all but the large cases
+  measure.py --large                            those too: half an hour more
+  measure.py --only peers,machine --column now  some of it; the other figures stay
+
+The figures are kept in docs/benchmarks.json, by column: "before" for those of an earlier version beside "now".
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+PAGE, STORE = ROOT / "docs/benchmarks.md", ROOT / "docs/benchmarks.json"
+SECTIONS = ("machine", "steps", "setup", "programs", "peers")
+
+STEPS = "^(brick_wall/411/overlap_area|sliding|pile).*threads:[{}]"
+LARGE_STEPS = "^large/(sliding|pile).*threads:[{}]"
+
+
+def google_benchmark(binary, pattern, repetitions):
+    """{name: {counter: median}} of the cases that fit the pattern."""
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        command = [binary, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}"]
+        command += [f"--benchmark_out={out.name}", "--benchmark_out_format=json"]
+        command += ["--benchmark_enable_random_interleaving=true"] if repetitions > 1 else []
+        subprocess.run(command, check=True)
+        runs = json.load(open(out.name))["benchmarks"]
+    found = {}
+    for run in runs:
+        if run["run_type"] != "iteration" or run.get("error_occurred"):
+            continue
+        name = re.sub(r"/(iterations:\d+|real_time|manual_time|repeats:\d+)", "", run["name"]).removeprefix("large/")
+        for key, value in run.items():
+            if isinstance(value, (int, float)):
+                found.setdefault(name, {}).setdefault(key, []).append(value)
+    return {name: {key: statistics.median(values) for key, values in case.items()} for name, case in found.items()}
+
+
+def first_match(pattern, text, default="unknown"):
+    found = re.search(pattern, text, re.MULTILINE)
+    return found.group(1).strip() if found else default
+
+
+def measure_machine(binaries, _):
+    processor = pathlib.Path("/proc/cpuinfo").read_text()
+    caches = subprocess.run(["lscpu", "--caches=NAME,ONE-SIZE"], text=True, capture_output=True).stdout.split("\n")[1:]
+    own = json.loads(subprocess.run([binaries / "talus_machine"], check=True, text=True, capture_output=True).stdout)
+    return {
+        "processor": first_match(r"^model name\s*: (.*)$", processor),
+        "family, model, stepping": ", ".join(
+            first_match(rf"^{key}\s*: (.*)$", processor) for key in ("cpu family", "model", "stepping")
+        ),
+        "clock as reported": first_match(r"^cpu MHz\s*: (.*)$", processor) + " MHz",
+        "cores": os.cpu_count(),
+        "caches of a core": ", ".join(" ".join(line.split()) for line in caches if line) or "unknown",
+        "compiler": own["compiler"],
+        "peak, one thread: scalar": f"{own['scalar_gflops']:.3g} GFLOP/s",
+        "peak, one thread: AVX2": f"{own['avx2_gflops']:.3g} GFLOP/s",
+        "peak, one thread: AVX-512": f"{own['avx512_gflops']:.3g} GFLOP/s",
+        "memory, one thread": f"{own['triad_gb_per_s']:.3g} GB/s",
+        f"memory, {own['threads']} threads": f"{own['triad_all_gb_per_s']:.3g} GB/s",
+    }
+
+
+def measure_steps(binaries, arguments):
+    found = google_benchmark(binaries / "talus_benchmarks", STEPS.format(arguments.threads), arguments.repetitions)
+    if arguments.large:
+        found |= google_benchmark(binaries / "talus_benchmarks", LARGE_STEPS.format(arguments.threads), 1)
+    return found
+
+
+def measure_setup(binaries, arguments):
+    pattern = "setup/" if arguments.large else "^(large/)?setup/pile/(5000|50000)/"
+    return google_benchmark(binaries / "talus_benchmarks", pattern, 1)
+
+
+def measure_programs(binaries, arguments):
+    return google_benchmark(binaries / "talus_benchmarks", f"whole_program/.*threads:[{arguments.threads}]", 1)
+
+
+def measure_peers(binaries, arguments):
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        command = [sys.executable, HERE / "peers/compare.py", "--rounds", str(arguments.rounds), "--json", out.name]
+        command += ["--talus", binaries / "talus", "--box2d", binaries / "peer_box2d"]
+        subprocess.run(command, check=True)
+        return json.load(open(out.name))
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def number(value, digits=3):
+    """Figures of a measurement; a dash where a column lacks the case."""
+    if value is None:
+        return "–"
+    if value >= 10 ** (digits - 1):
+        value = round(value, digits - 1 - len(str(int(value))) + 1)
+        return f"{value:,.0f}"
+    return f"{value:.{digits}g}"
+
+
+def counted(value):
+    return "–" if value is None else f"{value:,.0f}"
+
+
+def columns_of(store, section):
+    """Columns that hold the section, "before" first, and the cases of any of them in the order of the newest."""
+    columns = [column for column in ("before", "now") if section in store.get(column, {})]
+    cases = {}
+    for column in reversed(columns):
+        cases |= dict.fromkeys(store[column][section])
+    return columns, list(cases)
+
+
+def get(store, column, section, case, key):
+    return store.get(column, {}).get(section, {}).get(case, {}).get(key)
+
+
+def show_machine(store):
+    columns, _ = columns_of(store, "machine")
+    latest = store[columns[-1]]
+    rows = list(latest["machine"].items())
+    rows += [(f"when, load: {column}", store[column]["when"]) for column in columns]
+    return table(["", ""], rows)
+
+
+def show_steps(store):
+    columns, cases = columns_of(store, "steps")
+    keys = ["blocks", "overlapping_pairs", "candidate_pairs"]
+    heads = ["case", "blocks", "pairs that overlap", "candidates"]
+    for what in ("ns per block and step", "ns per overlapping pair and step", "bytes per block"):
+        heads += [f"{what}, {column}" for column in columns]
+    rows = []
+    for case in cases:
+        newest = next(column for column in reversed(columns) if case in store[column]["steps"])
+        row = [f"`{case}`"] + [counted(get(store, newest, "steps", case, key)) for key in keys]
+        for key in ("ns_per_block_step", "ns_per_contact_step", "bytes_per_block"):
+            for column in columns:
+                value = get(store, column, "steps", case, key)
+                row.append(number(value))
+        rows.append(row)
+    return table(heads, rows)
+
+
+def show_setup(store):
+    columns, cases = columns_of(store, "setup")
+    parts = {
+        "reading_s": "read the text",
+        "overlap_check_s": "of that, overlaps",
+        "construction_s": "make the simulation",
+        "model_s": "of that, the model",
+    }
+    heads = ["case"] + [f"{what} [s], {column}" for what in parts.values() for column in columns]
+    rows = [
+        [f"`{case}`"] + [number(get(store, column, "setup", case, key)) for key in parts for column in columns]
+        for case in cases
+    ]
+    return table(heads, rows)
+
+
+def show_programs(store):
+    columns, cases = columns_of(store, "programs")
+    heads = ["case"] + [f"CPU s per simulated s, {column}" for column in columns]
+    return table(
+        heads,
+        [
+            [f"`{case}`"] + [number(get(store, c, "programs", case, "cpu_s_per_simulated_s")) for c in columns]
+            for case in cases
+        ],
+    )
+
+
+def show_peers(store):
+    columns, sizes = columns_of(store, "peers")
+    heads = ["blocks", "program", "step [s]", "speed at the end [m/s]"]
+    heads += [f"ns per body and step, {column}" for column in columns]
+    heads += [f"ratio to talus, {column}" for column in columns] + ["seen in the last run"]
+    rows = []
+    for size in sizes:
+        newest = next(column for column in reversed(columns) if size in store[column]["peers"])
+        for name, run in store[newest]["peers"][size].items():
+            runs = [store[column]["peers"].get(size, {}).get(name, {}) for column in columns]
+            row = [size, name, f"{run['step']:.3g}", f"{run['speed']:.4f}"]
+            row += [number(each.get("ns")) for each in runs]
+            row += [number(each.get("ratio")) for each in runs] + [run["note"]]
+            rows.append(row)
+    return table(heads, rows)
+
+
+def stored():
+    return json.loads(STORE.read_text()) if STORE.exists() else {}
+
+
+def rewrite(store):
+    text = PAGE.read_text()
+    show = {
+        "machine": show_machine,
+        "steps": show_steps,
+        "setup": show_setup,
+        "programs": show_programs,
+        "peers": show_peers,
+    }
+    for section in SECTIONS:
+        if not columns_of(store, section)[0]:
+            continue
+        begin, end = f"<!-- {section}: begin -->", f"<!-- {section}: end -->"
+        start, stop = text.index(begin) + len(begin), text.index(end)
+        text = text[:start] + "\n" + show[section](store) + "\n" + text[stop:]
+    PAGE.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--column", choices=("before", "now"), default="now")
+    parser.add_argument("--only", default=",".join(SECTIONS), help="some of " + ", ".join(SECTIONS))
+    parser.add_argument("--large", action="store_true", help="also cases that run for minutes")
+    parser.add_argument("--repetitions", type=int, default=3, help="of the cases of Google Benchmark")
+    parser.add_argument("--rounds", type=int, default=3, help="of the comparison with peers")
+    parser.add_argument("--threads", default="12", help="1 on a busy machine, where two threads tell nothing")
+    parser.add_argument("--binaries", type=pathlib.Path, default=ROOT / "build/release/bin")
+    parser.add_argument("--tables", action="store_true", help="measure nothing, write the tables")
+    arguments = parser.parse_args()
+    wanted = [] if arguments.tables else arguments.only.split(",")
+    if not set(wanted) <= set(SECTIONS):
+        parser.error("--only takes some of " + ", ".join(SECTIONS))
+    if arguments.tables:
+        rewrite(stored())
+    for section in wanted:
+        figures = globals()[f"measure_{section}"](arguments.binaries, arguments)
+        store = stored()
+        column = store.setdefault(arguments.column, {})
+        column[section] = figures if section == "machine" else column.get(section, {}) | figures
+        load = os.getloadavg()[1]
+        column["when"] = f"{datetime.date.today()}, load average {load:.1f} on {os.cpu_count()} cores"
+        STORE.write_text(json.dumps(store, indent=1) + "\n")
+        rewrite(store)
+
+
+if __name__ == "__main__":
+    main()
