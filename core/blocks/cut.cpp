@@ -66,6 +66,10 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
   name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
   for (Block& block : blocks) drop_idle_vertices(block, tolerance);
   sort_blocks(blocks, 1e-9 * size);
+  if (order.split_share == 0) return blocks;
+  split_quadrilaterals(blocks, order.split_share, order.split_seed, smallest);
+  for (Block& block : blocks) orient(block);
+  sort_blocks(blocks, 1e-9 * size);
   return blocks;
 }
 

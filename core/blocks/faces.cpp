@@ -1,5 +1,7 @@
 #include "blocks/faces.hpp"
 
+#include "blocks/random.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -40,6 +42,16 @@ bool is_idle(Vec2 before, Vec2 at, Vec2 after, double tolerance) {
   return std::abs(off) <= tolerance && ahead > 0 && ahead < length * length;
 }
 
+bool is_convex_quadrilateral(const Block& block) {
+  if (block.loops.size() != 1 || block.loops[0].size() != 4) return false;
+  const Ring& ring = block.loops[0];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 a = ring[i], b = ring[(i + 1) % 4], c = ring[(i + 2) % 4];
+    if ((b.x - a.x) * (c.y - b.y) <= (b.y - a.y) * (c.x - b.x)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void orient(Block& block) {
@@ -50,6 +62,10 @@ void orient(Block& block) {
     if ((signed_area(ring) > 0) != (loop == 0)) std::reverse(ring.begin(), ring.end());
     const auto first = std::min_element(
         ring.begin(), ring.end(), [](Vec2 a, Vec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
+    if (loop < block.edge_surface.size()) {
+      std::vector<std::uint32_t>& surfaces = block.edge_surface[loop];
+      std::rotate(surfaces.begin(), surfaces.begin() + (first - ring.begin()), surfaces.end());
+    }
     std::rotate(ring.begin(), first, ring.end());
     const Moments part = moments_of(ring, about);
     all = {all.area + part.area, all.x + part.x, all.y + part.y};
@@ -88,6 +104,23 @@ void drop_idle_vertices(Block& block, double tolerance) {
     if (kept.size() < 3) continue;
     ring = std::move(kept);
     surfaces = std::move(kept_surfaces);
+  }
+}
+
+void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest) {
+  const std::size_t count = blocks.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Random(seed, i).share() >= share || !is_convex_quadrilateral(blocks[i])) continue;
+    const Ring ring = blocks[i].loops[0];
+    const std::vector<std::uint32_t> surfaces = blocks[i].edge_surface[0];
+    // Of diagonals that rounding alone tells apart the one from the first vertex.
+    const std::size_t a = distance(ring[0], ring[2]) <= (1 + 1e-9) * distance(ring[1], ring[3]) ? 0 : 1;
+    const std::size_t b = a + 1, c = a + 2, d = (a + 3) % 4;
+    if (std::min(signed_area({ring[a], ring[b], ring[c]}), signed_area({ring[a], ring[c], ring[d]})) <
+        smallest)
+      continue;
+    blocks[i] = {{{ring[a], ring[b], ring[c]}}, {{surfaces[a], surfaces[b], 0}}, 0, {}};
+    blocks.push_back({{{ring[a], ring[c], ring[d]}}, {{0, surfaces[c], surfaces[d]}}, 0, {}});
   }
 }
 

@@ -91,7 +91,7 @@ class Expander {
     const std::size_t mistakes_before = mistakes_.count();
     Section section(&written, pointer, mistakes_);
     const std::string name = section.text("name", "what the names of the blocks begin with");
-    if (!name.empty()) check_own_name(section, name);
+    const bool own_name = !name.empty() && check_own_name(section, name);
     const Shape domain = read_domain(section);
     Joints joints = read_joints(section, folder_);
     const double smallest_area = section.value(table::of(table::blocks, "smallest_area"));
@@ -110,7 +110,7 @@ class Expander {
     if (bodies_.size() == first && !name.empty()) {
       result.unmade.push_back(name);
       // The domain as a whole stands for the blocks, so that what they share is checked as well.
-      if (domain.sound && written.contains("material"))
+      if (domain.sound && own_name && written.contains("material"))
         bodies_.push_back(body_of(domain_of(domain, joints), name + "_1", joints.surfaces, written));
     }
     result.generated.push_back({first, bodies_.size() - first, pointer});
@@ -119,12 +119,13 @@ class Expander {
   Expansion result;
 
  private:
-  void check_own_name(Section& section, const std::string& name) {
+  bool check_own_name(Section& section, const std::string& name) {
     check_name(name, section.pointer_to("name"), mistakes_);
     const auto [known, is_new] = names_.emplace(name, section.pointer());
-    if (is_new) return;
+    if (is_new) return true;
     mistakes_.add(section.pointer_to("name"),
                   fmt::format("\"{}\" is the name of {} already: names must differ", name, known->second));
+    return false;
   }
 
   std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
@@ -142,6 +143,8 @@ class Expander {
       CutOrder order = order_of(domain, joints, geos);
       order.smallest_area = smallest_area;
       order.smallest_share = smallest_share;
+      order.split_share = joints.split_share;
+      order.split_seed = joints.split_seed;
       std::vector<Block> made = cut_domain(order, geos);
       if (made.empty()) {
         mistakes_.add(

@@ -134,9 +134,9 @@ void read_drawing(Section& section, const std::filesystem::path& folder, Joints&
 }  // namespace
 
 std::uint32_t Joints::number_of(const std::string& surface) {
-  const auto found = std::find(surfaces.begin(), surfaces.end(), surface);
-  if (found == surfaces.end()) surfaces.push_back(surface);
-  return static_cast<std::uint32_t>(found - surfaces.begin());
+  const auto number = std::find(surfaces.begin(), surfaces.end(), surface) - surfaces.begin();
+  if (static_cast<std::size_t>(number) == surfaces.size()) surfaces.push_back(surface);
+  return static_cast<std::uint32_t>(number);
 }
 
 Joints read_joints(Section& generator, const std::filesystem::path& folder) {
@@ -158,6 +158,12 @@ Joints read_joints(Section& generator, const std::filesystem::path& folder) {
   if (const Json* written = generator.child("voronoi")) {
     Section section(written, generator.pointer_to("voronoi"), mistakes);
     read_voronoi(section, joints);
+  }
+  if (const Json* written = generator.child("split")) {
+    Section section(written, generator.pointer_to("split"), mistakes);
+    joints.split_share = section.value(table::of(table::split, "share"));
+    joints.split_seed = take_seed(section, table::of(table::split, "seed"));
+    section.finish();
   }
   if (generator.child("dxf") != nullptr) read_drawing(generator, folder, joints);
   return joints;

@@ -16,13 +16,15 @@ struct Joints {
   std::vector<Cut> cuts;  ///< "joints" and those of a drawing
   std::optional<Bricks> bricks;
   std::optional<Sites> sites;
+  double split_share = 0;  ///< of quadrilaterals that become triangles
+  std::uint64_t split_seed = 0;
   std::vector<std::string> surfaces{""};  ///< names by number
   std::vector<std::string> warnings;
 
   std::uint32_t number_of(const std::string& surface);
 };
 
-/// "joint_sets", "joints", "bricks", "voronoi" and "dxf" of a generator.
+/// "joint_sets", "joints", "bricks", "voronoi", "split" and "dxf" of a generator.
 Joints read_joints(Section& generator, const std::filesystem::path& folder);
 
 }  // namespace talus

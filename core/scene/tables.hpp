@@ -66,6 +66,12 @@ inline constexpr Parameter joint_set[] = {
     number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
 };
 
+inline constexpr Parameter split[] = {
+    number("share", "-", required, 0, 1,
+           "Share of the convex quadrilaterals that are split into triangles, at random."),
+    number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
+};
+
 inline constexpr Parameter bricks[] = {
     number("width", "m", required, above_zero, unbounded, "Width of a brick."),
     number("height", "m", required, above_zero, unbounded, "Height of a brick."),
@@ -187,6 +193,7 @@ inline constexpr Described all[] = {
     {"/bodies/*/drive", drive},
     {"/blocks/*", blocks},
     {"/blocks/*/joint_sets/*", joint_set},
+    {"/blocks/*/split", split},
     {"/blocks/*/bricks", bricks},
     {"/blocks/*/voronoi", voronoi},
     {"/loads/*", load},
