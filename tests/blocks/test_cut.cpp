@@ -154,6 +154,30 @@ TEST_CASE("Voronoi cells by count and by spacing fill the domain", "[blocks]") {
         }) > 50);
 }
 
+TEST_CASE("a share of the quadrilaterals becomes triangles, along the shorter diagonal", "[blocks]") {
+  const std::string grid = R"("joint_sets": [{"dip": 45, "spacing": 0.2}, {"dip": 0, "spacing": 0.1}])";
+  const auto whole = made(grid), all = made(grid + R"(, "split": {"share": 1})");
+  const auto corners = [](const std::vector<SceneBody>& bodies, std::size_t count) {
+    return std::count_if(bodies.begin(), bodies.end(),
+                         [&](const SceneBody& body) { return body.outer.vertices.size() == count; });
+  };
+  const auto quadrilaterals = corners(whole, 4);
+  REQUIRE(quadrilaterals > 20);
+  CHECK(corners(all, 4) == 0);
+  CHECK(all.size() == whole.size() + static_cast<std::size_t>(quadrilaterals));
+  CHECK(area_sum(all) == Approx(1).epsilon(rounding));
+  const auto some = made(grid + R"(, "split": {"share": 0.5, "seed": 1})");
+  CHECK(some.size() > whole.size());
+  CHECK(some.size() < all.size());
+  // The rhomb's diagonals are 4 and 2: the halves lie left and right of the upright one.
+  const auto halves = made(R"("split": {"share": 1})", "[[0, 0], [2, -1], [4, 0], [2, 1]]");
+  REQUIRE(halves.size() == 2);
+  CHECK(area_of(halves[0]) == 2);
+  for (const Vec2 vertex : halves[0].outer.vertices) CHECK(vertex.x <= 2);
+  CHECK(made(R"("split": {"share": 1}, "smallest_area": 0.6)").size() ==
+        1);  // halves of 0.5 m2 would be small
+}
+
 TEST_CASE("edges along named joints and sides of the domain carry their surface", "[blocks]") {
   const Scene scene = sample::read(generator_scene(
       R"("surfaces": {"base": [0]}, "joint_sets": [{"dip": 90, "spacing": 0.5, "surface": "bedding"}],
