@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 using namespace talus;
 using Catch::Matchers::Contains;
 
@@ -156,7 +158,13 @@ TEST_CASE("names of blocks and of generators must not clash, nor blocks and bodi
   REQUIRE(same.size() == 1);
   CHECK(same[0].pointer == "/blocks/1/name");
   CHECK_THAT(same[0].message, Contains("the name of /blocks/0 already"));
-  CHECK_THAT(
-      sample::mistakes(with(generator_scene(""), "\"blocks\": [", "\"blocks\": 3, \"x\": ["))[0].message,
-      Contains("3 is not allowed here"));
+}
+
+TEST_CASE("generators stand in a list", "[blocks]") {
+  const auto found =
+      sample::mistakes(with(generator_scene(""), "\"blocks\": [", "\"blocks\": 3, \"title\": ["));
+  const auto at_blocks =
+      std::find_if(found.begin(), found.end(), [](const Mistake& one) { return one.pointer == "/blocks"; });
+  REQUIRE(at_blocks != found.end());
+  CHECK_THAT(at_blocks->message, Contains("3 is not allowed here: expected a list of generators"));
 }
