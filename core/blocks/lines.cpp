@@ -172,7 +172,10 @@ Density density_of(const std::vector<Cut>& cuts, const Box& box) {
       density.pieces += 1;
     }
   }
-  density.length /= box.width() * box.height();
+  const double area = box.width() * box.height();
+  density.length /= area;
+  // Lines in all directions cross λ²/π times per area.
+  density.pieces += density.length * density.length * area / std::numbers::pi;
   return density;
 }
 
