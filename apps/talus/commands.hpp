@@ -11,6 +11,7 @@ using Words = std::vector<std::string>;
 int run_command(const Words& words);
 int compare_command(const Words& words);
 int validate_command(const Words& words);
+int blocks_command(const Words& words);
 int plugins_command(const Words& words);
 int describe_command(const Words& words);
 

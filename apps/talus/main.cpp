@@ -30,6 +30,8 @@ constexpr Command commands[] = {
     {"compare", "SCENE --vary /pointer=a,b [options]",
      "run a scene once per value, side by side, and measure how the results part", compare_command},
     {"validate", "SCENE [options]", "say all mistakes of a scene, or what it is", validate_command},
+    {"blocks", "SCENE [-o FILE] [options]", "write a scene with its generated blocks as plain bodies",
+     blocks_command},
     {"plugins", "[options]", "list the libraries found, what they bring, and which were refused and why",
      plugins_command},
     {"describe", "NAME [options]", "explain a component or a section of a scene with all its parameters",

@@ -227,7 +227,7 @@ void read_bodies(Reading& reading, Section& root) {
         read_body(reading, section, scene_cover, scene_cover.component != nullptr));
     resolved.push_back(section.resolved);
   });
-  if (bodies->is_array() && bodies->empty())
+  if (bodies->is_array() && bodies->empty() && reading.unmade.empty())
     reading.mistakes.add("/bodies", fmt::format("[] holds no body: expected {}", what));
   root.resolved["bodies"] = std::move(resolved);
   report_overlaps(reading);

@@ -31,8 +31,9 @@ std::vector<Vec2> read_points(Section& section) {
   return points;
 }
 
-/// The name of its faces, or "".
-std::string read_surface(Section& section) {
+}  // namespace
+
+std::string read_line_surface(Section& section) {
   const Json* written = section.child("surface");
   if (written == nullptr) return {};
   std::string name = section.text("surface", "a name for its faces");
@@ -40,21 +41,24 @@ std::string read_surface(Section& section) {
   return name;
 }
 
-}  // namespace
-
-std::vector<Discontinuity> read_discontinuities(Section& body, std::vector<std::string>& surfaces) {
+std::vector<Discontinuity> read_polylines(Section& section, const std::string& key,
+                                          std::vector<std::string>& surfaces) {
   std::vector<Discontinuity> all;
   OrderedJson resolved = OrderedJson::array();
-  body.list("discontinuities", "a list of polylines [{\"points\": [[x, y], ...], \"surface\": ...}]",
-            [&](const Json& value, const std::string& pointer) {
-              Section section(&value, pointer, body.mistakes());
-              all.push_back({read_points(section), 0});
-              surfaces.push_back(read_surface(section));
-              section.finish();
-              resolved.push_back(section.resolved);
-            });
-  if (!all.empty()) body.resolved["discontinuities"] = std::move(resolved);
+  section.list(key, "a list of polylines [{\"points\": [[x, y], ...], \"surface\": ...}]",
+               [&](const Json& value, const std::string& pointer) {
+                 Section line(&value, pointer, section.mistakes());
+                 all.push_back({read_points(line), 0});
+                 surfaces.push_back(read_line_surface(line));
+                 line.finish();
+                 resolved.push_back(line.resolved);
+               });
+  if (!all.empty()) section.resolved[key] = std::move(resolved);
   return all;
+}
+
+std::vector<Discontinuity> read_discontinuities(Section& body, std::vector<std::string>& surfaces) {
+  return read_polylines(body, "discontinuities", surfaces);
 }
 
 }  // namespace talus

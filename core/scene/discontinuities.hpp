@@ -11,4 +11,11 @@ namespace talus {
 /// "", to `surfaces`.
 std::vector<Discontinuity> read_discontinuities(Section& body, std::vector<std::string>& surfaces);
 
+/// The same list under another key: "joints" of a generator of blocks.
+std::vector<Discontinuity> read_polylines(Section& section, const std::string& key,
+                                          std::vector<std::string>& surfaces);
+
+/// "surface" of lines: the name of their faces, or "".
+std::string read_line_surface(Section& line);
+
 }  // namespace talus

@@ -19,7 +19,7 @@ void check_moves(Reading& reading, Section& section, std::optional<std::uint32_t
 
 PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
   PrescribedSurface one{};
-  const auto body = take_reference(section, "body", "body", reading.body_index);
+  const auto body = take_body(reading, section);
   check_moves(reading, section, body);
   one.body = body.value_or(0);
   one.surface_class = take_surface(reading, section, body).value_or(0);
@@ -40,7 +40,7 @@ PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
 
 SurfaceLoad read_surface_load(Reading& reading, Section& section) {
   SurfaceLoad load{};
-  const auto body = take_reference(section, "body", "body", reading.body_index);
+  const auto body = take_body(reading, section);
   check_moves(reading, section, body);
   load.body = body.value_or(0);
   load.surface_class = take_surface(reading, section, body).value_or(0);
@@ -65,7 +65,7 @@ void read_loads(Reading& reading, Section& root) {
   root.list("loads", "a list of loads [{\"body\": ..., \"point\": ..., \"force\": ...}]",
             [&](const Json& value, const std::string& pointer) {
               Section section(&value, pointer, reading.mistakes);
-              const auto body = take_reference(section, "body", "body", reading.body_index);
+              const auto body = take_body(reading, section);
               check_moves(reading, section, body);
               const Vec2 point = take_point(reading, section, body).value_or(Vec2{});
               if (!section.has("point")) section.pair(table::coordinate);
@@ -94,7 +94,7 @@ void read_absorbing(Reading& reading, Section& root) {
   root.list("absorbing", "a list of surfaces that let waves out [{\"body\": ..., \"surface\": ...}]",
             [&](const Json& value, const std::string& pointer) {
               Section section(&value, pointer, reading.mistakes);
-              const auto body = take_reference(section, "body", "body", reading.body_index);
+              const auto body = take_body(reading, section);
               check_moves(reading, section, body);
               const auto surface = take_surface(reading, section, body);
               section.finish();

@@ -89,23 +89,23 @@ void turn(Ring& ring, std::vector<std::string>& edges) {
   std::reverse(edges.begin(), edges.end());
 }
 
-/// "polygon", "holes" and "surfaces" as written. Returns whether the loops can be looked at.
-bool read_loops(Section& body, Shape& shape) {
+/// The outer loop under its key, "holes" and "surfaces" as written. Returns whether the loops can be looked
+/// at.
+bool read_loops(Section& body, const char* outer, const char* expected, Shape& shape) {
   bool good = true;
   std::vector<std::size_t> edge_counts;
   const auto take_loop = [&](const Json& loop, const std::string& pointer) {
     shape.loops.push_back(read_ring(loop, pointer, body.mistakes(), good));
     edge_counts.push_back(loop.is_array() ? loop.size() : 0);
   };
-  const Json* polygon = body.required_child(
-      "polygon", "a list of vertices [[x, y], ...] [m], or \"mesh\" with the path of a file");
+  const Json* polygon = body.required_child(outer, expected);
   if (polygon == nullptr) {
     good = false;
     shape.loops.emplace_back();
     edge_counts.push_back(0);
   } else {
-    body.resolved["polygon"] = *polygon;
-    take_loop(*polygon, body.pointer_to("polygon"));
+    body.resolved[outer] = *polygon;
+    take_loop(*polygon, body.pointer_to(outer));
   }
   body.list("holes", "a list of polygons [[[x, y], ...], ...]", take_loop);
   if (const Json* holes = body.child("holes")) body.resolved["holes"] = *holes;
@@ -133,28 +133,40 @@ bool read_mesh(Reading& reading, Section& body, Shape& shape) {
   return read_mesh_shape(reading, body, shape);
 }
 
+/// Reports what keeps the shape from bounding a body, at `outer` or at its holes; else turns its loops.
+void check_loops(Section& body, const std::string& outer, bool whole, Shape& shape) {
+  const std::vector<ShapeFault> faults = shape_faults(shape.loops);
+  for (const ShapeFault& fault : faults) {
+    std::string pointer = body.pointer_to(outer);
+    if (!whole && fault.loop != 0) pointer = below(body.pointer_to("holes"), fault.loop - 1);
+    if (!whole && fault.vertex) pointer = below(pointer, *fault.vertex);
+    body.mistakes().add(pointer, fault.message);
+  }
+  shape.sound = faults.empty();
+  if (!shape.sound) return;
+  for (std::size_t loop = 0; loop < shape.loops.size(); ++loop) {
+    const bool counter_clockwise = signed_area(shape.loops[loop]) > 0;
+    if (counter_clockwise != (loop == 0)) turn(shape.loops[loop], shape.edge_surface[loop]);
+  }
+}
+
 }  // namespace
 
 Shape read_shape(Reading& reading, Section& body) {
   Shape shape;
   const bool meshed = body.child("mesh") != nullptr;
-  if (!(meshed ? read_mesh(reading, body, shape) : read_loops(body, shape))) return shape;
+  const bool good =
+      meshed ? read_mesh(reading, body, shape)
+             : read_loops(body, "polygon",
+                          "a list of vertices [[x, y], ...] [m], or \"mesh\" with the path of a file", shape);
+  if (good) check_loops(body, meshed ? "mesh" : "polygon", meshed, shape);
+  return shape;
+}
 
-  const std::vector<ShapeFault> faults = shape_faults(shape.loops);
-  for (const ShapeFault& fault : faults) {
-    std::string pointer = body.pointer_to("mesh");
-    if (!meshed)
-      pointer =
-          fault.loop == 0 ? body.pointer_to("polygon") : below(body.pointer_to("holes"), fault.loop - 1);
-    if (!meshed && fault.vertex) pointer = below(pointer, *fault.vertex);
-    body.mistakes().add(pointer, fault.message);
-  }
-  shape.sound = faults.empty();
-  if (!shape.sound) return shape;
-  for (std::size_t loop = 0; loop < shape.loops.size(); ++loop) {
-    const bool counter_clockwise = signed_area(shape.loops[loop]) > 0;
-    if (counter_clockwise != (loop == 0)) turn(shape.loops[loop], shape.edge_surface[loop]);
-  }
+Shape read_domain(Section& generator) {
+  Shape shape;
+  if (read_loops(generator, "domain", "a list of vertices [[x, y], ...] [m]", shape))
+    check_loops(generator, "domain", false, shape);
   return shape;
 }
 

@@ -19,4 +19,7 @@ struct Shape {
 /// "polygon", "holes" and "surfaces" of a body, or "mesh".
 Shape read_shape(Reading& reading, Section& body);
 
+/// "domain", "holes" and "surfaces" of a generator of blocks.
+Shape read_domain(Section& generator);
+
 }  // namespace talus

@@ -64,6 +64,18 @@ void Mistakes::add_to_command(std::string command, std::string pointer, std::str
   found_.push_back({std::move(pointer), std::move(message), std::move(command), false});
 }
 
+void Mistakes::move(const std::function<std::string(const std::string&)>& to) {
+  std::set<std::pair<std::string, std::string>> told;
+  std::vector<Found> all = std::move(found_);
+  found_.clear();
+  for (Found& found : all) {
+    std::string pointer = to(found.pointer);
+    const bool moved = pointer != found.pointer;
+    found.pointer = std::move(pointer);
+    if (!moved || told.emplace(found.pointer, found.message).second) found_.push_back(std::move(found));
+  }
+}
+
 std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string& file,
                                       const std::vector<Override>& overrides,
                                       std::vector<Mistake> parsed) const {

@@ -2,6 +2,7 @@
 
 #include "scene/read.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ class Mistakes {
     bool at_key;
   };
   const std::vector<Found>& found() const { return found_; }
+
+  /// Moves mistakes to other pointers. Those that then say the same of the same pointer are told once.
+  void move(const std::function<std::string(const std::string& pointer)>& to);
 
   /// In the order of the file, then those of the overrides. A mistake in a value that an override wrote
   /// points at the override. `parsed` are those that the parser placed already.

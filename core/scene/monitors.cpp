@@ -65,7 +65,7 @@ Monitor read_monitor(Reading& reading, Section& section) {
                                        monitor.name, known->second));
     }
   }
-  const auto body = take_reference(section, "body", "body", reading.body_index);
+  const auto body = take_body(reading, section);
   monitor.body = body.value_or(0);
   monitor.point = take_point(reading, section, body);
   monitor.quantities = read_quantities(reading, section);

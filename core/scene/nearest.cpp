@@ -56,7 +56,11 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  return names.empty() ? std::string("(none)") : fmt::format("{}", fmt::join(names, ", "));
+  constexpr std::size_t readable = 60;
+  if (names.empty()) return "(none)";
+  if (names.size() <= readable) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}, and {} more", fmt::join(names.begin(), names.begin() + readable, ", "),
+                     names.size() - readable);
 }
 
 }  // namespace talus

@@ -11,7 +11,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& nam
 /// " did you mean "fix"?", or nothing.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
 
-/// "a, b, c", or "(none)".
+/// "a, b, c", or "(none)"; of very many the first ones and how many more.
 std::string listed(const std::vector<std::string>& names);
 
 }  // namespace talus

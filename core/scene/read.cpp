@@ -1,6 +1,7 @@
 #include "scene/read.hpp"
 
 #include "output/whole_file.hpp"
+#include "scene/blocks.hpp"
 #include "scene/bodies.hpp"
 #include "scene/contact.hpp"
 #include "scene/interfaces.hpp"
@@ -47,6 +48,7 @@ void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   read_libraries(reading, root, reading.folder, allow_plugins);
   read_world(reading, root);
   read_materials(reading, root);
+  root.child("blocks");  // became bodies before
   read_bodies(reading, root);
   const ContactSection contact = read_contact(reading, root);
   read_interfaces(reading, root, contact);
@@ -76,8 +78,13 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
   Reading reading{registry, mistakes};
   reading.folder = std::filesystem::path(name).parent_path();
   reading.scene.file = name;
+  Expansion expansion;
+  if (parsed.value.is_object()) expansion = expand_blocks(parsed.value, reading.folder, mistakes);
+  reading.unmade = expansion.unmade;
+  reading.scene.warnings = expansion.warnings;
   const ReadAgain read_again = [&](const Json& scene, Mistakes& mistakes_again) {
     Reading again{registry, mistakes_again, reading.folder};
+    again.unmade = expansion.unmade;
     Section root(&scene, "", mistakes_again);
     read_sections(again, root, options.allow_plugins);
     return Reread{std::move(again.scene), std::move(root.resolved)};
@@ -87,6 +94,7 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
     read_sections(reading, root, options.allow_plugins);
     read_stages(reading, root, parsed.value, read_again);
   }
+  mistakes.move([&](const std::string& pointer) { return expansion.origin_of(pointer); });
   if (mistakes.count() != 0 || !parsed.mistakes.empty()) {
     throw SceneError(mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes)));
   }

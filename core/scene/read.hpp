@@ -45,4 +45,9 @@ Scene read_scene(const std::filesystem::path& file, Registry& registry, const Re
 Scene read_scene_text(const std::string& text, const std::string& name, Registry& registry,
                       const ReadOptions& options = {});
 
+/// The scene as it is written, with the overrides, and with plain bodies in place of the generators in
+/// "blocks". Comments before the first brace stay. Throws what read_scene throws.
+std::string plain_scene_text(const std::string& text, const std::string& name, Registry& registry,
+                             const ReadOptions& options = {});
+
 }  // namespace talus

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace talus {
 
 std::set<std::string> SurfaceNames::all() const {
@@ -42,6 +44,17 @@ std::optional<std::uint32_t> take_reference(Section& section, const std::string&
                                        did_you_mean(name, names), listed(names)));
   }
   return std::nullopt;
+}
+
+std::optional<std::uint32_t> take_body(const Reading& reading, Section& section) {
+  if (const Json* written = section.child("body"); written != nullptr && written->is_string()) {
+    const std::string name = written->get<std::string>();
+    const bool unmade =
+        std::any_of(reading.unmade.begin(), reading.unmade.end(),
+                    [&](const std::string& prefix) { return name.starts_with(prefix + '_'); });
+    if (unmade && !reading.body_index.contains(name)) return std::nullopt;
+  }
+  return take_reference(section, "body", "body", reading.body_index);
 }
 
 std::optional<std::uint32_t> take_surface(Reading& reading, Section& section,

@@ -33,6 +33,8 @@ struct Reading {
   /// [body] the class of each named surface; known once the surfaces are numbered.
   std::vector<std::map<std::string, std::uint32_t>> surface_class = {};
   std::size_t table_points = 0;  ///< read so far, of all tables
+  std::vector<std::string> unmade =
+      {};  ///< generators of blocks that failed: what they name is not asked for
 };
 
 /// A name that can stand in JSON pointers, lists and column heads. Notes a mistake otherwise.
@@ -41,6 +43,9 @@ bool check_name(const std::string& name, const std::string& pointer, Mistakes& m
 /// The index of what `key` names; notes the mistake of an absent, mistyped or unknown name.
 std::optional<std::uint32_t> take_reference(Section& section, const std::string& key, const std::string& what,
                                             const std::map<std::string, std::uint32_t>& index);
+
+/// The body that "body" names; notes the mistake unless it may be a block of a generator that failed.
+std::optional<std::uint32_t> take_body(const Reading& reading, Section& section);
 
 /// The class of the surface of the body that "surface" names; notes the mistake of an absent or unknown name.
 std::optional<std::uint32_t> take_surface(Reading& reading, Section& section,

@@ -46,6 +46,48 @@ inline constexpr Parameter body[] = {
            "With roles by priority the body of the higher number is master."),
 };
 
+inline constexpr Parameter blocks[] = {
+    number("smallest_area", "m2", 0, 0, unbounded,
+           "Blocks below it join the neighbour with which they have the longest boundary in common."),
+    number("smallest_share", "-", 0, 0, 1, "The same as a share of the mean area; the larger one counts."),
+};
+
+inline constexpr Parameter joint_set[] = {
+    number("dip", "deg", required, -180, 180, "Angle of the joints to the x axis, counter-clockwise."),
+    number("spacing", "m", required, above_zero, unbounded, "Distance between joints."),
+    number("offset", "m", 0, -largest_coordinate, largest_coordinate,
+           "Distance of one joint from the scene's (0, 0), to the left of the direction of the dip."),
+    number("jitter", "-", 0, 0, 0.5, "Share of the spacing by which joints are moved at random, at most."),
+    number("persistence", "-", 1, above_zero, 1, "Share of the length of a joint that is open."),
+    number(
+        "gap", "m", not_set, above_zero, unbounded,
+        "Length of the bridges between the open parts of a joint, at random places; goes with a persistence "
+        "below 1."),
+    number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
+};
+
+inline constexpr Parameter split[] = {
+    number("share", "-", required, 0, 1,
+           "Share of the convex quadrilaterals that are split into triangles, at random."),
+    number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
+};
+
+inline constexpr Parameter bricks[] = {
+    number("width", "m", required, above_zero, unbounded, "Width of a brick."),
+    number("height", "m", required, above_zero, unbounded, "Height of a brick."),
+    choice("bond", "running|stack", 0, "Whether every second course is shifted by half a brick, or none."),
+    number("gap", "m", 0, 0, unbounded, "Gap between bricks."),
+};
+
+inline constexpr Parameter voronoi[] = {
+    number("count", "-", not_set, 1, unbounded, "Number of cells, around points at random."),
+    number("spacing", "m", not_set, above_zero, unbounded,
+           "Instead of a count: distance of points on a hexagonal grid."),
+    number("jitter", "-", 0.3, 0, 0.5,
+           "Share of the spacing by which each point of the grid is moved at random along x and y, at most."),
+    number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
+};
+
 inline constexpr Parameter drive[] = {
     number("x", "m/s", not_set, -unbounded, unbounded, "Prescribed velocity of the centre of mass along x."),
     number("y", "m/s", not_set, -unbounded, unbounded, "Prescribed velocity of the centre of mass along y."),
@@ -149,6 +191,11 @@ inline constexpr Described all[] = {
     {"/interfaces/*", interface},
     {"/bodies/*", body},
     {"/bodies/*/drive", drive},
+    {"/blocks/*", blocks},
+    {"/blocks/*/joint_sets/*", joint_set},
+    {"/blocks/*/split", split},
+    {"/blocks/*/bricks", bricks},
+    {"/blocks/*/voronoi", voronoi},
     {"/loads/*", load},
     {"/surface_loads/*", surface_load},
     {"/prescribed/*", prescribed},

@@ -16,7 +16,7 @@ TEST_CASE("help and version go to stdout", "[apps]") {
   const Call version = call_talus(scratch.folder(), {"--version"});
   CHECK(version.code == 0);
   CHECK(version.out == "talus " TALUS_VERSION "\n");
-  for (const char* command : {"run", "compare", "validate", "plugins", "describe"}) {
+  for (const char* command : {"run", "compare", "validate", "blocks", "plugins", "describe"}) {
     const Call call = call_talus(scratch.folder(), {command, "--help"});
     CHECK(call.code == 0);
     CHECK_THAT(call.out, Contains(std::string("Usage: talus ") + command) && Contains("--plugin-path"));

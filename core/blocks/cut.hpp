@@ -1,0 +1,40 @@
+#pragma once
+
+#include "blocks/lines.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace talus {
+
+/// Shape with the surface of each edge (0 for none); loop 0 outside and counter-clockwise, holes clockwise.
+struct Block {
+  Loops loops;
+  std::vector<std::vector<std::uint32_t>> edge_surface;
+  double area = 0;  ///< m²
+  Vec2 centroid;
+};
+
+struct CutOrder {
+  Block domain;
+  std::vector<Cut> cuts;
+  std::function<bool(Vec2)> is_void;  ///< whether what lies around a point within a block is left out
+  double smallest_area = 0;           ///< m²
+  double smallest_share = 0;          ///< of the mean area; the larger of the two counts
+  double split_share = 0;  ///< of the convex quadrilaterals that are split into triangles, at random
+  std::uint64_t split_seed = 0;
+};
+
+/// The blocks into which lines cut the domain. Ends of lines that lead nowhere do not cut; ends that come
+/// within 1e-8 of the domain's size of another line count as meeting it. A block below the smallest area, or
+/// thinner than 1e-7 of the domain's size, joins the neighbour with which it has the longest boundary in
+/// common, the smallest first; one without neighbour is left out. Quadrilaterals are split last, along the
+/// shorter diagonal, where no triangle is below the smallest area.
+///
+/// Sorted by centroid (x, then y), then area; each loop begins at its lowest vertex, of these the leftmost,
+/// and has no vertex within a straight edge. Throws std::runtime_error where the geometry cannot be worked
+/// with.
+std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos);
+
+}  // namespace talus

@@ -1,0 +1,222 @@
+#include "blocks/dxf.hpp"
+
+#include "geometry/printable.hpp"
+#include "output/input_error.hpp"
+#include "output/whole_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace talus {
+namespace {
+
+constexpr int closed_flag = 1;
+constexpr int outside_model_space = 8 | 16 | 64;  // polylines in space and meshes
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string shown(std::string_view word) {
+  const std::string_view start = word.substr(0, 40);
+  return printable(start) ? fmt::format("'{}'", start) : "something that is no text";
+}
+
+/// A DXF is a list of groups: a line with a code that tells what the next line is.
+class Parser {
+ public:
+  Parser(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
+
+  DxfDrawing parse() {
+    if (rest_.starts_with("AutoCAD Binary DXF")) fail("this is a binary DXF: save it as text (ASCII)");
+    if (!next() || code_ != 0 || value_ != "SECTION")
+      fail("this is no DXF: expected it to begin with 0 and SECTION");
+    bool has_entities = false;
+    do {
+      if (code_ == 0 && value_ == "EOF") break;
+      if (code_ != 2 || value_ != "ENTITIES") continue;
+      has_entities = true;
+      read_entities();
+    } while (next());
+    if (!has_entities) fail("the drawing has no section ENTITIES");
+    return std::move(drawing_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& words) const {
+    throw InputError(fmt::format("{}:{}: {}", name_, line_, words));
+  }
+
+  std::string_view take_line() {
+    const std::size_t end = rest_.find('\n');
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++line_;
+    return trimmed(line);
+  }
+
+  /// The next group; false at the end of the file.
+  bool next() {
+    if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
+    const std::string_view code = take_line();
+    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
+    if (error != std::errc() || end != code.data() + code.size())
+      fail(fmt::format("{} stands where the code of a group, a whole number, should", shown(code)));
+    if (rest_.empty()) fail(fmt::format("the file ends after the code {}", code_));
+    value_ = take_line();
+    return true;
+  }
+
+  double number() const {
+    double taken = 0;
+    const auto [end, error] = std::from_chars(value_.data(), value_.data() + value_.size(), taken);
+    if (error != std::errc() || end != value_.data() + value_.size() || !std::isfinite(taken))
+      fail(fmt::format("{} is no number", shown(value_)));
+    return taken;
+  }
+
+  /// Ends on ENDSEC.
+  void read_entities() {
+    advance();
+    while (value_ != "ENDSEC") {
+      if (value_ == "LINE") {
+        read_line();
+      } else if (value_ == "LWPOLYLINE") {
+        read_light_polyline();
+      } else if (value_ == "POLYLINE") {
+        read_polyline();
+      } else {
+        ++drawing_.passed_over[printable(value_) ? std::string(value_) : "?"];
+        read_groups([](int) {});
+      }
+    }
+  }
+
+  void advance() {
+    if (!next()) fail("the file ends within the section ENTITIES");
+  }
+
+  /// Calls `take` with the code of each group of an entity, and reads what all entities share. Ends on the
+  /// next code 0.
+  template <typename Take>
+  void read_groups(Take&& take) {
+    advance();
+    while (code_ != 0) {
+      if (code_ == 8) layer_ = value_;
+      if (code_ == 67 && number() != 0) paper_ = true;
+      take(code_);
+      advance();
+    }
+  }
+
+  void begin_entity() {
+    layer_ = "0";
+    paper_ = false;
+    line_of_entity_ = line_;
+  }
+
+  void check_plane() const {
+    if (code_ == 230 && number() != 1)
+      fail("the polyline stands in a plane of its own (code 230): expected 1, the plane of the drawing");
+  }
+
+  void check_bulge() const {
+    if (code_ == 42 && number() != 0) fail("the polyline has an arc (code 42): draw it as straight lines");
+  }
+
+  void read_line() {
+    begin_entity();
+    Vec2 from, to;
+    read_groups([&](int code) {
+      if (code == 10) from.x = number();
+      if (code == 20) from.y = number();
+      if (code == 11) to.x = number();
+      if (code == 21) to.y = number();
+    });
+    keep({from, to}, false, "LINE");
+  }
+
+  void read_light_polyline() {
+    begin_entity();
+    std::vector<Vec2> points;
+    bool closed = false;
+    read_groups([&](int code) {
+      if (code == 70) closed = (static_cast<int>(number()) & closed_flag) != 0;
+      if (code == 10) points.push_back({number(), 0});
+      if (code == 20 && points.empty()) fail("a y (code 20) stands before the first x (code 10)");
+      if (code == 20) points.back().y = number();
+      check_bulge();
+      check_plane();
+    });
+    keep(std::move(points), closed, "LWPOLYLINE");
+  }
+
+  void read_polyline() {
+    begin_entity();
+    std::vector<Vec2> points;
+    int flags = 0;
+    read_groups([&](int code) {
+      if (code == 70) flags = static_cast<int>(number());
+      check_plane();
+    });
+    const std::string_view layer = layer_;
+    const bool paper = paper_;
+    while (value_ == "VERTEX") {
+      Vec2 point;
+      read_groups([&](int code) {
+        if (code == 10) point.x = number();
+        if (code == 20) point.y = number();
+        check_bulge();
+      });
+      points.push_back(point);
+    }
+    if (value_ != "SEQEND") fail(fmt::format("{} stands where VERTEX or SEQEND should", shown(value_)));
+    read_groups([](int) {});
+    layer_ = layer;
+    paper_ = paper;
+    const bool flat = (flags & outside_model_space) == 0;
+    flat ? keep(std::move(points), (flags & closed_flag) != 0, "POLYLINE") : pass_over("POLYLINE");
+  }
+
+  void pass_over(const char* kind) { ++drawing_.passed_over[fmt::format("{} not of the plane", kind)]; }
+
+  void keep(std::vector<Vec2> points, bool closed, const char* kind) {
+    if (paper_) return pass_over(kind);
+    if (closed && !points.empty()) points.push_back(points[0]);
+    const auto same = [](Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; };
+    points.erase(std::unique(points.begin(), points.end(), same), points.end());
+    if (points.size() < 2) {
+      line_ = line_of_entity_;
+      fail(fmt::format("the {} has no length: expected two different points or more", kind));
+    }
+    drawing_.lines.push_back({std::string(layer_), std::move(points)});
+  }
+
+  std::string_view rest_;
+  std::string name_;
+  std::size_t line_ = 0, line_of_entity_ = 0;
+  int code_ = 0;
+  std::string_view value_;
+  std::string_view layer_;
+  bool paper_ = false;  ///< whether the entity stands on a sheet, not in the model
+  DxfDrawing drawing_;
+};
+
+}  // namespace
+
+DxfDrawing read_dxf_text(std::string_view text, const std::string& name) {
+  return Parser(text, name).parse();
+}
+
+DxfDrawing read_dxf(const std::filesystem::path& file) {
+  return read_dxf_text(read_whole_file(file), file.string());
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/vec2.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// A polyline of a drawing; a closed one repeats its first point.
+struct DxfLine {
+  std::string layer;
+  std::vector<Vec2> points;  ///< as written, none twice in a row
+};
+
+struct DxfDrawing {
+  std::vector<DxfLine> lines;
+  std::map<std::string, int> passed_over;  ///< how often entities of other kinds stand in it
+};
+
+/// Reads LINE, POLYLINE and LWPOLYLINE entities of model space from a DXF file (text), in the order of the
+/// file. Throws InputError with file and line where it is no DXF, or a polyline has arcs or stands in a plane
+/// other than that of the drawing; std::system_error when it cannot be read.
+DxfDrawing read_dxf(const std::filesystem::path& file);
+DxfDrawing read_dxf_text(std::string_view text, const std::string& name);
+
+}  // namespace talus

@@ -1,0 +1,127 @@
+#include "blocks/faces.hpp"
+
+#include "blocks/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace talus {
+namespace {
+
+double distance(Vec2 a, Vec2 b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// Area and first moments of a ring about its first vertex, which keeps the digits of far-away scenes.
+struct Moments {
+  double area = 0, x = 0, y = 0;
+};
+
+Moments moments_of(const Ring& ring, Vec2 about) {
+  Moments sum;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a{ring[i].x - about.x, ring[i].y - about.y};
+    const Vec2 next = ring[(i + 1) % ring.size()], b{next.x - about.x, next.y - about.y};
+    const double twice = a.x * b.y - b.x * a.y;
+    sum.area += twice / 2;
+    sum.x += twice * (a.x + b.x) / 6;
+    sum.y += twice * (a.y + b.y) / 6;
+  }
+  return sum;
+}
+
+/// Whether the vertex may go: it is the one before, or lies on the way from there to the next.
+bool is_idle(Vec2 before, Vec2 at, Vec2 after, double tolerance) {
+  if (distance(before, at) <= tolerance) return true;
+  const double dx = after.x - before.x, dy = after.y - before.y, length = std::hypot(dx, dy);
+  if (length <= tolerance) return false;
+  const double off = ((at.x - before.x) * dy - (at.y - before.y) * dx) / length;
+  const double ahead = (at.x - before.x) * dx + (at.y - before.y) * dy;
+  return std::abs(off) <= tolerance && ahead > 0 && ahead < length * length;
+}
+
+bool is_convex_quadrilateral(const Block& block) {
+  if (block.loops.size() != 1 || block.loops[0].size() != 4) return false;
+  const Ring& ring = block.loops[0];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 a = ring[i], b = ring[(i + 1) % 4], c = ring[(i + 2) % 4];
+    if ((b.x - a.x) * (c.y - b.y) <= (b.y - a.y) * (c.x - b.x)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void orient(Block& block) {
+  Moments all;
+  const Vec2 about = block.loops[0][0];
+  for (std::size_t loop = 0; loop < block.loops.size(); ++loop) {
+    Ring& ring = block.loops[loop];
+    if ((signed_area(ring) > 0) != (loop == 0)) std::reverse(ring.begin(), ring.end());
+    const auto first = std::min_element(
+        ring.begin(), ring.end(), [](Vec2 a, Vec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
+    if (loop < block.edge_surface.size()) {
+      std::vector<std::uint32_t>& surfaces = block.edge_surface[loop];
+      std::rotate(surfaces.begin(), surfaces.begin() + (first - ring.begin()), surfaces.end());
+    }
+    std::rotate(ring.begin(), first, ring.end());
+    const Moments part = moments_of(ring, about);
+    all = {all.area + part.area, all.x + part.x, all.y + part.y};
+  }
+  std::sort(block.loops.begin() + 1, block.loops.end(),
+            [](const Ring& a, const Ring& b) { return std::tie(a[0].x, a[0].y) < std::tie(b[0].x, b[0].y); });
+  block.area = all.area;
+  block.centroid = {about.x + all.x / all.area, about.y + all.y / all.area};
+}
+
+void sort_blocks(std::vector<Block>& blocks, double same) {
+  const auto key = [same](const Block& block) {
+    return std::tuple(std::round(block.centroid.x / same), std::round(block.centroid.y / same), block.area);
+  };
+  std::sort(blocks.begin(), blocks.end(), [&](const Block& a, const Block& b) { return key(a) < key(b); });
+}
+
+void drop_idle_vertices(Block& block, double tolerance) {
+  for (std::size_t loop = 0; loop < block.loops.size(); ++loop) {
+    Ring& ring = block.loops[loop];
+    std::vector<std::uint32_t>& surfaces = block.edge_surface[loop];
+    Ring kept;
+    std::vector<std::uint32_t> kept_surfaces;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t next = (i + 1) % ring.size(), last = (i + ring.size() - 1) % ring.size();
+      const Vec2 before = kept.empty() ? ring[last] : kept.back();
+      const std::uint32_t arriving = kept.empty() ? surfaces[last] : kept_surfaces.back();
+      const bool repeated = distance(before, ring[i]) <= tolerance;
+      if ((repeated || arriving == surfaces[i]) && is_idle(before, ring[i], ring[next], tolerance)) {
+        if (repeated && !kept.empty()) kept_surfaces.back() = surfaces[i];
+        continue;
+      }
+      kept.push_back(ring[i]);
+      kept_surfaces.push_back(surfaces[i]);
+    }
+    if (kept.size() < 3) continue;
+    ring = std::move(kept);
+    surfaces = std::move(kept_surfaces);
+  }
+}
+
+void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest) {
+  const std::size_t count = blocks.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Random(seed, i).share() >= share || !is_convex_quadrilateral(blocks[i])) continue;
+    const Ring ring = blocks[i].loops[0];
+    const std::vector<std::uint32_t> surfaces = blocks[i].edge_surface[0];
+    // Of diagonals that rounding alone tells apart the one from the first vertex.
+    const std::size_t a = distance(ring[0], ring[2]) <= (1 + 1e-9) * distance(ring[1], ring[3]) ? 0 : 1;
+    const std::size_t b = a + 1, c = a + 2, d = (a + 3) % 4;
+    if (std::min(signed_area({ring[a], ring[b], ring[c]}), signed_area({ring[a], ring[c], ring[d]})) <
+        smallest)
+      continue;
+    blocks[i] = {{{ring[a], ring[b], ring[c]}}, {{surfaces[a], surfaces[b], 0}}, 0, {}};
+    blocks.push_back({{{ring[a], ring[c], ring[d]}}, {{0, surfaces[c], surfaces[d]}}, 0, {}});
+  }
+}
+
+}  // namespace talus

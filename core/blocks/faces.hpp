@@ -1,0 +1,34 @@
+#pragma once
+
+#include "blocks/cut.hpp"
+
+#include <vector>
+
+namespace talus {
+
+/// Merges faces below `smallest` (m²) or thinner than `thinnest` (m) into neighbours as cut_domain says.
+/// Faces that touch have the same vertices along their common boundary. Areas must be set.
+std::vector<Block> merge_small_faces(std::vector<Block> faces, double smallest, double thinnest,
+                                     const Geos& geos);
+
+/// Turns loops the right way round and lets each begin at its lowest, leftmost vertex; sets area and
+/// centroid.
+/// Surfaces of edges that are known go with them, where the loops are the right way round already.
+void orient(Block& block);
+
+/// Sorts by centroid and area; places less than `same` (m) apart count as one.
+void sort_blocks(std::vector<Block>& blocks, double same);
+
+/// Drops vertices within `tolerance` (m) of the one before or of the line between their neighbours, where
+/// both edges are of the same surface.
+void drop_idle_vertices(Block& block, double tolerance);
+
+/// Splits a share of the convex quadrilaterals along their shorter diagonals, at random by their order,
+/// where no triangle is below `smallest` (m²).
+void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest);
+
+/// Which surface each edge belongs to: that of the first line which it lies on, within `tolerance` (m).
+void name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
+                double tolerance, const Geos& geos);
+
+}  // namespace talus

@@ -1,0 +1,105 @@
+#include "blocks/faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+struct Segment {
+  Vec2 from, to;
+  std::uint32_t surface;
+};
+
+/// Segments of named lines, those of the domain first.
+std::vector<Segment> named_segments(const Block& domain, const std::vector<Cut>& cuts) {
+  std::vector<Segment> segments;
+  for (std::size_t loop = 0; loop < domain.loops.size(); ++loop) {
+    const Ring& ring = domain.loops[loop];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (domain.edge_surface[loop][i] != 0)
+        segments.push_back({ring[i], ring[(i + 1) % ring.size()], domain.edge_surface[loop][i]});
+    }
+  }
+  for (const Cut& cut : cuts) {
+    for (std::size_t i = 1; cut.surface != 0 && i < cut.points.size(); ++i)
+      segments.push_back({cut.points[i - 1], cut.points[i], cut.surface});
+  }
+  return segments;
+}
+
+bool is_near(const Segment& segment, Vec2 point, double tolerance) {
+  const double dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;
+  const double length2 = dx * dx + dy * dy, x = point.x - segment.from.x, y = point.y - segment.from.y;
+  const double share = std::clamp((x * dx + y * dy) / length2, 0.0, 1.0);
+  return std::hypot(x - share * dx, y - share * dy) <= tolerance;
+}
+
+/// Segments by place.
+class Index {
+ public:
+  Index(const std::vector<Segment>& segments, double tolerance, const Geos& geos)
+      : segments_(segments),
+        tolerance_(tolerance),
+        geos_(geos),
+        tree_(GEOSSTRtree_create_r(geos.context(), 8)) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      lines_.push_back(geos.line({segments[i].from, segments[i].to}));
+      GEOSSTRtree_insert_r(geos.context(), tree_, lines_.back().get(), const_cast<Segment*>(&segments_[i]));
+    }
+  }
+  ~Index() { GEOSSTRtree_destroy_r(geos_.context(), tree_); }
+  Index(const Index&) = delete;
+  Index& operator=(const Index&) = delete;
+
+  /// The tree tells what it finds in no order: the first segment of the list wins.
+  std::uint32_t surface_of(Vec2 from, Vec2 to) const {
+    Search search{from, to, tolerance_, nullptr};
+    const double margin = tolerance_;
+    const Geos::Geometry around =
+        geos_.line({{std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin},
+                    {std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin}});
+    GEOSSTRtree_query_r(geos_.context(), tree_, around.get(), look_at, &search);
+    return search.found == nullptr ? 0 : search.found->surface;
+  }
+
+ private:
+  struct Search {
+    Vec2 from, to;
+    double tolerance;
+    const Segment* found;
+  };
+
+  static void look_at(void* item, void* data) {
+    const auto* segment = static_cast<const Segment*>(item);
+    auto& search = *static_cast<Search*>(data);
+    if (search.found != nullptr && search.found < segment) return;
+    if (is_near(*segment, search.from, search.tolerance) && is_near(*segment, search.to, search.tolerance))
+      search.found = segment;
+  }
+
+  const std::vector<Segment>& segments_;
+  double tolerance_;
+  const Geos& geos_;
+  GEOSSTRtree* tree_;
+  std::vector<Geos::Geometry> lines_;
+};
+
+}  // namespace
+
+void name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
+                double tolerance, const Geos& geos) {
+  const std::vector<Segment> segments = named_segments(domain, cuts);
+  const Index index(segments, tolerance, geos);
+  for (Block& block : blocks) {
+    block.edge_surface.clear();
+    for (const Ring& ring : block.loops) {
+      std::vector<std::uint32_t>& names = block.edge_surface.emplace_back();
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        names.push_back(segments.empty() ? 0 : index.surface_of(ring[i], ring[(i + 1) % ring.size()]));
+    }
+  }
+}
+
+}  // namespace talus

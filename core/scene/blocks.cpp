@@ -1,0 +1,204 @@
+#include "scene/blocks.hpp"
+
+#include "blocks/cut.hpp"
+#include "scene/joints.hpp"
+#include "scene/loops.hpp"
+#include "scene/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <exception>
+#include <map>
+#include <utility>
+
+namespace talus {
+namespace {
+
+constexpr double most_blocks = 1e6;  // some gigabytes as JSON and as bodies
+
+/// Keys of bodies that all blocks of a generator have in common.
+constexpr const char* shared_keys[] = {"material", "cover", "fixed",    "velocity",    "angular_velocity",
+                                       "fix",      "drive", "priority", "self_contact"};
+
+constexpr const char* expected =
+    "a list of generators [{\"name\": ..., \"domain\": [[x, y], ...], \"joint_sets\": [...], \"material\": "
+    "...}]";
+
+Block domain_of(const Shape& shape, Joints& joints) {
+  Block domain{shape.loops, {}, 0, {}};
+  for (const std::vector<std::string>& names : shape.edge_surface) {
+    std::vector<std::uint32_t>& numbers = domain.edge_surface.emplace_back();
+    for (const std::string& name : names) numbers.push_back(joints.number_of(name));
+  }
+  return domain;
+}
+
+double estimate(const Joints& joints, const Box& box) {
+  std::vector<Density> sources{density_of(joints.cuts, box)};
+  for (const JointSet& set : joints.sets) sources.push_back(density_of(set, box));
+  if (joints.bricks) sources.push_back(density_of(*joints.bricks, box));
+  if (joints.sites) sources.push_back(density_of(*joints.sites, box));
+  return estimated_blocks(sources, box);
+}
+
+CutOrder order_of(const Shape& shape, Joints& joints, const Geos& geos) {
+  CutOrder order;
+  order.domain = domain_of(shape, joints);
+  const Box box = box_around(shape.loops[0]);
+  for (const JointSet& set : joints.sets) add_joints(set, box, order.cuts);
+  order.cuts.insert(order.cuts.end(), joints.cuts.begin(), joints.cuts.end());
+  if (joints.bricks) {
+    add_bricks(*joints.bricks, box, order.cuts);
+    order.is_void = [bricks = *joints.bricks, box](Vec2 point) { return bricks.in_gap(box, point); };
+  }
+  if (joints.sites) add_voronoi(*joints.sites, shape.loops[0], geos, order.cuts);
+  return order;
+}
+
+Json vertices_of(const Ring& ring) {
+  Json vertices = Json::array();
+  for (const Vec2 vertex : ring) vertices.push_back(Json::array({vertex.x, vertex.y}));
+  return vertices;
+}
+
+Json body_of(const Block& block, const std::string& name, const std::vector<std::string>& surfaces,
+             const Json& generator) {
+  Json body = Json::object();
+  body["name"] = name;
+  body["polygon"] = vertices_of(block.loops[0]);
+  for (std::size_t i = 1; i < block.loops.size(); ++i) body["holes"].push_back(vertices_of(block.loops[i]));
+  std::size_t edge = 0;
+  for (const std::vector<std::uint32_t>& loop : block.edge_surface) {
+    for (const std::uint32_t surface : loop) {
+      if (surface != 0) body["surfaces"][surfaces[surface]].push_back(edge);
+      ++edge;
+    }
+  }
+  for (const char* key : shared_keys) {
+    if (const auto shared = generator.find(key); shared != generator.end()) body[key] = *shared;
+  }
+  return body;
+}
+
+class Expander {
+ public:
+  Expander(Json& bodies, const std::filesystem::path& folder, Mistakes& mistakes)
+      : bodies_(bodies), folder_(folder), mistakes_(mistakes) {}
+
+  void take(const Json& written, const std::string& pointer) {
+    const std::size_t mistakes_before = mistakes_.count();
+    Section section(&written, pointer, mistakes_);
+    const std::string name = section.text("name", "what the names of the blocks begin with");
+    const bool own_name = !name.empty() && check_own_name(section, name);
+    const Shape domain = read_domain(section);
+    Joints joints = read_joints(section, folder_);
+    const double smallest_area = section.value(table::of(table::blocks, "smallest_area"));
+    const double smallest_share = section.value(table::of(table::blocks, "smallest_share"));
+    for (const char* key : shared_keys) section.child(key);
+    if (written.is_object() && !written.contains("material"))
+      section.required_child("material", "the name of a material");
+    section.finish();
+    const std::size_t first = bodies_.size();
+    if (mistakes_.count() == mistakes_before) {
+      const std::vector<Block> blocks = cut(section, domain, joints, smallest_area, smallest_share);
+      for (std::size_t i = 0; i < blocks.size(); ++i)
+        bodies_.push_back(body_of(blocks[i], fmt::format("{}_{}", name, i + 1), joints.surfaces, written));
+      result.warnings.insert(result.warnings.end(), joints.warnings.begin(), joints.warnings.end());
+    }
+    if (bodies_.size() == first && !name.empty()) {
+      result.unmade.push_back(name);
+      // The domain as a whole stands for the blocks, so that what they share is checked as well.
+      if (domain.sound && own_name && written.contains("material"))
+        bodies_.push_back(body_of(domain_of(domain, joints), name + "_1", joints.surfaces, written));
+    }
+    result.generated.push_back({first, bodies_.size() - first, pointer});
+  }
+
+  Expansion result;
+
+ private:
+  bool check_own_name(Section& section, const std::string& name) {
+    check_name(name, section.pointer_to("name"), mistakes_);
+    const auto [known, is_new] = names_.emplace(name, section.pointer());
+    if (is_new) return true;
+    mistakes_.add(section.pointer_to("name"),
+                  fmt::format("\"{}\" is the name of {} already: names must differ", name, known->second));
+    return false;
+  }
+
+  std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
+                         double smallest_share) {
+    const double blocks = estimate(joints, box_around(domain.loops[0]));
+    if (blocks > most_blocks) {
+      mistakes_.add(section.pointer(),
+                    fmt::format("this would make about {:.2g} blocks: expected {:.0e} at most; are the "
+                                "spacings in metres?",
+                                blocks, most_blocks));
+      return {};
+    }
+    try {
+      const Geos geos;
+      CutOrder order = order_of(domain, joints, geos);
+      order.smallest_area = smallest_area;
+      order.smallest_share = smallest_share;
+      order.split_share = joints.split_share;
+      order.split_seed = joints.split_seed;
+      std::vector<Block> made = cut_domain(order, geos);
+      if (made.empty()) {
+        mistakes_.add(
+            section.pointer(),
+            "no block is left: what there is lies in gaps, or is below the smallest area and has no "
+            "neighbour to join");
+      }
+      return made;
+    } catch (const std::runtime_error& failure) {
+      mistakes_.add(section.pointer(), fmt::format("the domain could not be cut: {}", failure.what()));
+      return {};
+    }
+  }
+
+  Json& bodies_;
+  const std::filesystem::path& folder_;
+  Mistakes& mistakes_;
+  std::map<std::string, std::string> names_;
+};
+
+}  // namespace
+
+std::string Expansion::origin_of(const std::string& pointer) const {
+  constexpr std::string_view bodies = "/bodies/";
+  if (!pointer.starts_with(bodies)) return pointer;
+  const std::size_t end = std::min(pointer.find('/', bodies.size()), pointer.size());
+  std::size_t number = 0;
+  if (std::from_chars(pointer.data() + bodies.size(), pointer.data() + end, number).ptr !=
+      pointer.data() + end)
+    return pointer;
+  for (const Generated& part : generated) {
+    if (number < part.first || number >= part.first + part.count) continue;
+    const std::string rest = pointer.substr(end);
+    const bool outline = rest.starts_with("/polygon") || rest.starts_with("/holes");
+    return part.pointer + (outline ? "/domain" : rest);
+  }
+  return pointer;
+}
+
+Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, Mistakes& mistakes) {
+  const auto written = scene.find("blocks");
+  if (written == scene.end()) return {};
+  const Json generators = std::move(*written);
+  scene.erase("blocks");
+  if (!generators.is_array()) {
+    mistakes.add("/blocks", fmt::format("{} is not allowed here: expected {}", shown(generators), expected));
+    return {};
+  }
+  if (!scene.contains("bodies") && !generators.empty()) scene["bodies"] = Json::array();
+  Json none = Json::array();
+  Json& bodies = scene.contains("bodies") && scene["bodies"].is_array() ? scene["bodies"] : none;
+  Expander expander(bodies, folder, mistakes);
+  for (std::size_t i = 0; i < generators.size(); ++i) expander.take(generators[i], below("/blocks", i));
+  return std::move(expander.result);
+}
+
+}  // namespace talus

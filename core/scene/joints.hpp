@@ -1,0 +1,30 @@
+#pragma once
+
+#include "blocks/lines.hpp"
+#include "scene/section.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// All that cuts a domain, as a scene gives it.
+struct Joints {
+  std::vector<JointSet> sets;
+  std::vector<Cut> cuts;  ///< "joints" and those of a drawing
+  std::optional<Bricks> bricks;
+  std::optional<Sites> sites;
+  double split_share = 0;  ///< of quadrilaterals that become triangles
+  std::uint64_t split_seed = 0;
+  std::vector<std::string> surfaces{""};  ///< names by number
+  std::vector<std::string> warnings;
+
+  std::uint32_t number_of(const std::string& surface);
+};
+
+/// "joint_sets", "joints", "bricks", "voronoi", "split" and "dxf" of a generator.
+Joints read_joints(Section& generator, const std::filesystem::path& folder);
+
+}  // namespace talus

@@ -1,0 +1,206 @@
+#include "blocks/generator.hpp"
+
+#include "scene/polygons.hpp"
+#include "scene/sample.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace talus;
+
+namespace {
+
+constexpr double rounding = 1e-12;
+
+bool same_shapes(const std::vector<SceneBody>& a, const std::vector<SceneBody>& b) {
+  const auto same = [](Vec2 p, Vec2 q) { return p.x == q.x && p.y == q.y; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const SceneBody& one, const SceneBody& other) {
+                      return std::equal(one.outer.vertices.begin(), one.outer.vertices.end(),
+                                        other.outer.vertices.begin(), other.outer.vertices.end(), same);
+                    });
+}
+
+}  // namespace
+
+TEST_CASE("a domain that nothing cuts is one block", "[blocks]") {
+  const auto bodies = made("");
+  REQUIRE(bodies.size() == 1);
+  CHECK(bodies[0].name == "b_1");
+  CHECK(area_of(bodies[0]) == 1);
+}
+
+TEST_CASE("two sets of joints cut the square into a grid, sorted by place", "[blocks]") {
+  const auto bodies = made(R"("joint_sets": [{"dip": 0, "spacing": 0.5}, {"dip": 90, "spacing": 0.25}])");
+  REQUIRE(bodies.size() == 8);
+  for (std::size_t i = 0; i < 8; ++i) {
+    INFO(i);
+    const double x = 0.25 * static_cast<double>(i / 2), y = 0.5 * static_cast<double>(i % 2);
+    CHECK(bodies[i].name == "b_" + std::to_string(i + 1));
+    CHECK(area_of(bodies[i]) == Approx(0.125).epsilon(rounding));
+    REQUIRE(bodies[i].outer.vertices.size() == 4);  // the joints that lie on the boundary add nothing
+    CHECK(bodies[i].outer.vertices[0].x == Approx(x).margin(rounding));
+    CHECK(bodies[i].outer.vertices[0].y == Approx(y).margin(rounding));
+  }
+}
+
+TEST_CASE("oblique joints conserve the area, and T-joints leave no vertices in edges", "[blocks]") {
+  const auto bodies = made(R"("joint_sets": [{"dip": 33, "spacing": 0.07, "jitter": 0.2, "seed": 3},
+                              {"dip": -61, "spacing": 0.11, "persistence": 0.7, "gap": 0.05, "seed": 4}])",
+                           "[[0, 0], [3, 0.5], [2.2, 2], [1.4, 0.9], [-0.3, 1.7]]");
+  CHECK(bodies.size() > 100);
+  const Ring domain{{0, 0}, {3, 0.5}, {2.2, 2}, {1.4, 0.9}, {-0.3, 1.7}};
+  CHECK(area_sum(bodies) == Approx(signed_area(domain)).epsilon(rounding));
+  for (const SceneBody& body : bodies) {
+    const Ring& ring = body.outer.vertices;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], c = ring[(i + 2) % ring.size()];
+      const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+      CHECK(std::abs(cross) > rounding * std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y));
+    }
+  }
+}
+
+TEST_CASE("the seed decides what is random, and nothing else does", "[blocks]") {
+  const std::string set = R"("joint_sets": [{"dip": 20, "spacing": 0.2, "jitter": 0.4, "seed": )";
+  const auto first = made(set + "1}]"), again = made(set + "1}]"), other = made(set + "2}]");
+  CHECK(same_shapes(first, again));
+  CHECK_FALSE(same_shapes(first, other));
+}
+
+TEST_CASE("joints of neighbouring domains continue each other", "[blocks]") {
+  const std::string set = R"("joint_sets": [{"dip": 0, "spacing": 0.3, "jitter": 0.4, "seed": 5}])";
+  const auto left = made(set), right = made(set, "[[1, -2], [2, -2], [2, 1], [1, 1]]");
+  CHECK(left.back().outer.vertices[0].y == right.back().outer.vertices[0].y);
+}
+
+TEST_CASE("a joint that ends in the rock does not cut, one that ends on another does", "[blocks]") {
+  CHECK(made(R"("joints": [{"points": [[0, 0.5], [0.7, 0.5]]}])").size() == 1);
+  CHECK(made(R"("joints": [{"points": [[0.2, 0.2], [0.7, 0.5]]}])").size() == 1);
+  const std::string slanted = "[[0, 0], [1, 0.1], [0.7, 1.3], [-0.1, 0.9]]";
+  // Ends within rounding of the slanted boundary.
+  CHECK(made(R"("joints": [{"points": [[0.3, 0.03], [0.3, 1.1]]}])", slanted).size() == 2);
+  const auto three =
+      made(R"("joints": [{"points": [[0, 0.5], [1, 0.5]]}, {"points": [[0.5, 0.5], [0.5, 1]]}])");
+  REQUIRE(three.size() == 3);
+  CHECK(area_of(three[0]) == 0.25);
+  CHECK(area_of(three[1]) == 0.5);
+  CHECK(three[1].outer.vertices.size() == 4);  // the end of the other joint is no corner of it
+}
+
+TEST_CASE("a closed joint leaves a block with a hole, and holes of the domain stay open", "[blocks]") {
+  const auto bodies =
+      made(R"("joints": [{"points": [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6], [0.4, 0.4]]}])");
+  REQUIRE(bodies.size() == 2);
+  CHECK(area_sum(bodies) == Approx(1).epsilon(rounding));
+  CHECK(bodies[0].holes.size() + bodies[1].holes.size() == 1);
+  const auto open = made(R"("holes": [[[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6]]],
+                            "joint_sets": [{"dip": 0, "spacing": 0.5}])");
+  CHECK(open.size() == 2);
+  CHECK(area_sum(open) == Approx(0.96).epsilon(rounding));
+}
+
+TEST_CASE("small blocks join the neighbour with the longest common boundary", "[blocks]") {
+  // A strip of 0.1 x 1 at the right is cut at y = 0.3; what is left of it is cut at x = 0.5.
+  const std::string joints =
+      R"("joints": [{"points": [[0.9, 0], [0.9, 1]]}, {"points": [[0.9, 0.3], [1, 0.3]]},
+                                {"points": [[0, 0.1], [0.9, 0.1]]}])";
+  REQUIRE(made(joints).size() == 4);
+  // The lower part of the strip (0.03 m2) meets 0.1 of its upper part, 0.1 of the left foot and 0.2 of the
+  // rest.
+  const auto merged = made(joints + R"(, "smallest_area": 0.05)");
+  REQUIRE(merged.size() == 3);
+  CHECK(area_sum(merged) == Approx(1).epsilon(rounding));
+  CHECK(area_of(merged[1]) == Approx(0.81 + 0.03).epsilon(rounding));
+  // A mean of 0.25 m2: 0.4 of it are 0.1 m2, which the strip's upper part (0.07) and the foot (0.09) miss,
+  // too.
+  CHECK(made(joints + R"(, "smallest_share": 0.4)").size() == 1);
+}
+
+TEST_CASE("slivers between joints that all but coincide are merged", "[blocks]") {
+  const auto bodies =
+      made(R"("joints": [{"points": [[0, 0.5], [1, 0.5]]}, {"points": [[0, 0.5], [1, 0.500000001]]}])");
+  REQUIRE(bodies.size() == 2);
+  CHECK(area_sum(bodies) == Approx(1).epsilon(rounding));
+}
+
+TEST_CASE("bricks in running bond and in stacks", "[blocks]") {
+  const auto running = made(R"("bricks": {"width": 0.5, "height": 0.25})");
+  REQUIRE(running.size() == 10);  // courses of two, and of one between two halves
+  CHECK(area_sum(running) == Approx(1).epsilon(rounding));
+  CHECK(std::count_if(running.begin(), running.end(), [](const SceneBody& body) {
+          return std::abs(area_of(body) - 0.0625) < rounding;
+        }) == 4);
+  CHECK(made(R"("bricks": {"width": 0.5, "height": 0.25, "bond": "stack"})").size() == 8);
+  const auto apart = made(R"("bricks": {"width": 0.4, "height": 0.2, "bond": "stack", "gap": 0.1})");
+  // From the lower left corner: columns at 0 and 0.5, courses at 0, 0.3, 0.6 and a cut one at 0.9.
+  REQUIRE(apart.size() == 8);
+  CHECK(area_sum(apart) == Approx(2 * 0.4 * (3 * 0.2 + 0.1)).epsilon(rounding));
+}
+
+TEST_CASE("Voronoi cells by count and by spacing fill the domain", "[blocks]") {
+  const auto counted = made(R"("voronoi": {"count": 40, "seed": 1})");
+  CHECK(counted.size() == 40);
+  CHECK(area_sum(counted) == Approx(1).epsilon(rounding));
+  CHECK(same_shapes(counted, made(R"("voronoi": {"count": 40, "seed": 1})")));
+  CHECK(made(R"("voronoi": {"count": 1})").size() == 1);
+  const auto spaced = made(R"("voronoi": {"spacing": 0.1, "jitter": 0, "seed": 1})");
+  CHECK(area_sum(spaced) == Approx(1).epsilon(rounding));
+  // Inner cells are the hexagons of the grid: spacing² √3/2.
+  CHECK(std::count_if(spaced.begin(), spaced.end(), [](const SceneBody& body) {
+          return std::abs(area_of(body) / (0.01 * std::sqrt(0.75)) - 1) < 1e-9;
+        }) > 50);
+}
+
+TEST_CASE("a share of the quadrilaterals becomes triangles, along the shorter diagonal", "[blocks]") {
+  const std::string grid = R"("joint_sets": [{"dip": 45, "spacing": 0.2}, {"dip": 0, "spacing": 0.1}])";
+  const auto whole = made(grid), all = made(grid + R"(, "split": {"share": 1})");
+  const auto corners = [](const std::vector<SceneBody>& bodies, std::size_t count) {
+    return std::count_if(bodies.begin(), bodies.end(),
+                         [&](const SceneBody& body) { return body.outer.vertices.size() == count; });
+  };
+  const auto quadrilaterals = corners(whole, 4);
+  REQUIRE(quadrilaterals > 20);
+  CHECK(corners(all, 4) == 0);
+  CHECK(all.size() == whole.size() + static_cast<std::size_t>(quadrilaterals));
+  CHECK(area_sum(all) == Approx(1).epsilon(rounding));
+  const auto some = made(grid + R"(, "split": {"share": 0.5, "seed": 1})");
+  CHECK(some.size() > whole.size());
+  CHECK(some.size() < all.size());
+  // The rhomb's diagonals are 4 and 2: the halves lie left and right of the upright one.
+  const auto halves = made(R"("split": {"share": 1})", "[[0, 0], [2, -1], [4, 0], [2, 1]]");
+  REQUIRE(halves.size() == 2);
+  CHECK(area_of(halves[0]) == 2);
+  for (const Vec2 vertex : halves[0].outer.vertices) CHECK(vertex.x <= 2);
+  CHECK(made(R"("split": {"share": 1}, "smallest_area": 0.6)").size() ==
+        1);  // halves of 0.5 m2 would be small
+}
+
+TEST_CASE("edges along named joints and sides of the domain carry their surface", "[blocks]") {
+  const Scene scene = sample::read(generator_scene(
+      R"("surfaces": {"base": [0]}, "joint_sets": [{"dip": 90, "spacing": 0.5, "surface": "bedding"}],
+         "joints": [{"points": [[0, 0.5], [1, 0.5]]}])"));
+  REQUIRE(scene.bodies.size() == 4);
+  const auto surface = [&](std::size_t body, std::size_t edge) {
+    return scene.surfaces[scene.bodies[body].outer.surface_class[edge]].surface;
+  };
+  // From the lower left corner of each: below, right, above, left.
+  CHECK(surface(0, 0) == "base");
+  CHECK(surface(0, 1) == "bedding");
+  CHECK(surface(0, 2).empty());
+  CHECK(surface(0, 3) == "bedding");  // a joint of the set runs along the side of the domain as well
+  CHECK(surface(1, 0).empty());
+  CHECK(surface(1, 1) == "bedding");
+}
+
+TEST_CASE("far from zero the blocks are the same", "[blocks]") {
+  const std::string joints =
+      R"("joints": [{"points": [[500000.3, 5000000], [500000.6, 5000001]]}, {"points": [[500000, 5000000.5], [500001, 5000000.2]]}])";
+  const auto far =
+      made(joints, "[[500000, 5000000], [500001, 5000000], [500001, 5000001], [500000, 5000001]]");
+  REQUIRE(far.size() == 4);
+  CHECK(area_sum(far) == Approx(1).epsilon(1e-8));  // a double holds 5e6 m to 1e-9 m
+  for (const SceneBody& body : far) CHECK(body.outer.vertices.size() == 4);
+}

@@ -1,0 +1,123 @@
+#include "blocks/dxf.hpp"
+
+#include "blocks/generator.hpp"
+#include "output/input_error.hpp"
+#include "output/scratch.hpp"
+#include "scene/sample.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string drawing(const std::string& entities) {
+  return "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1015\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n" +
+         entities + "  0\nENDSEC\n  0\nEOF\n";
+}
+
+const std::string line = "  0\nLINE\n  8\nfault\n 10\n0.0\n 20\n0.5\n 11\n1.0\n 21\n0.5\n";
+const std::string light =
+    "  0\nLWPOLYLINE\n  8\n0\n 90\n3\n 70\n1\n 10\n0.1\n 20\n0.1\n 10\n0.3\n 20\n0.1\n 10\n0.2\n 20\n0.3\n";
+const std::string old_polyline =
+    "  0\nPOLYLINE\n  8\ncross\n 66\n1\n 70\n0\n  0\nVERTEX\n  8\ncross\n 10\n0.5\n 20\n0.5\n"
+    "  0\nVERTEX\n  8\ncross\n 10\n0.6\n 20\n0.8\n  0\nVERTEX\n  8\ncross\n 10\n0.5\n 20\n1\n  0\nSEQEND\n  "
+    "8\n0\n";
+
+std::string refusal(const std::string& text) {
+  try {
+    read_dxf_text(text, "d.dxf");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+Scene read_in(const Scratch& scratch, const std::string& text) {
+  static Registry registry = sample::registry();
+  return read_scene_text(text, (scratch / "scene.json").string(), registry);
+}
+
+}  // namespace
+
+TEST_CASE("lines and polylines of a drawing are read with their layers", "[blocks]") {
+  const DxfDrawing read = read_dxf_text(drawing(line + light + old_polyline), "d.dxf");
+  REQUIRE(read.lines.size() == 3);
+  CHECK(read.lines[0].layer == "fault");
+  REQUIRE(read.lines[0].points.size() == 2);
+  CHECK(read.lines[0].points[1].x == 1);
+  CHECK(read.lines[0].points[1].y == 0.5);
+  CHECK(read.lines[1].layer == "0");
+  REQUIRE(read.lines[1].points.size() == 4);  // closed
+  CHECK(read.lines[1].points[3].x == 0.1);
+  CHECK(read.lines[2].layer == "cross");
+  REQUIRE(read.lines[2].points.size() == 3);
+  CHECK(read.lines[2].points[1].y == 0.8);
+  CHECK(read.passed_over.empty());
+}
+
+TEST_CASE("line ends of Windows, points twice in a row and other entities do not disturb", "[blocks]") {
+  std::string text = drawing("  0\nCIRCLE\n  8\n0\n 10\n1\n 20\n1\n 40\n3\n" + light +
+                             "  0\nLINE\n 67\n1\n 10\n0\n 20\n0\n 11\n1\n 21\n1\n");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  const DxfDrawing read = read_dxf_text(text, "d.dxf");
+  REQUIRE(read.lines.size() == 1);
+  CHECK(read.passed_over.at("CIRCLE") == 1);
+  CHECK(read.passed_over.at("LINE not of the plane") == 1);  // it stands on a sheet
+}
+
+TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
+  CHECK_THAT(refusal("hello\n"), Contains("d.dxf:1: 'hello' stands where the code"));
+  CHECK_THAT(refusal("  0\nEOF\n"), Contains("d.dxf:2: this is no DXF"));
+  CHECK_THAT(refusal(""), Contains("no DXF"));
+  CHECK_THAT(refusal("AutoCAD Binary DXF\r\n"), Contains("save it as text"));
+  CHECK_THAT(refusal("  0\nSECTION\n  2\nHEADER\n  0\nENDSEC\n  0\nEOF\n"), Contains("no section ENTITIES"));
+  CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n"), Contains("ends after the code 10"));
+  CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n1\n"), Contains("ends within"));
+  CHECK_THAT(refusal(drawing("  0\nLINE\n 10\nx\n")), Contains("d.dxf:18: 'x' is no number"));
+  CHECK_THAT(refusal(drawing("  0\nLINE\n 10\n1\n 11\n1\n")), Contains("d.dxf:16: the LINE has no length"));
+  std::string arc = light;
+  arc.insert(arc.find(" 10\n0.3"), " 42\n0.5\n");
+  CHECK_THAT(refusal(drawing(arc)), Contains("arc"));
+  CHECK_THAT(refusal(drawing(light + "230\n-1\n")), Contains("plane of its own"));
+  CHECK_THAT(refusal(drawing("  0\nPOLYLINE\n  0\nLINE\n")), Contains("'LINE' stands where VERTEX"));
+}
+
+TEST_CASE("a drawing cuts a domain, and its layers name surfaces", "[blocks]") {
+  const Scratch scratch;
+  scratch.write("joints.dxf", drawing(line + light + old_polyline));
+  const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
+  REQUIRE(scene.bodies.size() ==
+          4);  // above the line left and right of the polyline, below it a triangle cut out
+  CHECK(area_sum(scene.bodies) == Approx(1).epsilon(1e-12));
+  std::set<std::string> names;
+  for (const SurfaceClass& surface : scene.surfaces) names.insert(surface.surface);
+  CHECK(names == std::set<std::string>{"", "cross", "fault"});
+}
+
+TEST_CASE("what a drawing has besides lines raises a warning", "[blocks]") {
+  const Scratch scratch;
+  scratch.write("joints.dxf", drawing(line + "  0\nTEXT\n  1\nnote\n"));
+  const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Contains("joints.dxf: 1 of the kind TEXT passed over"));
+}
+
+TEST_CASE("a drawing that is absent or broken is a mistake of the scene", "[blocks]") {
+  const Scratch scratch;
+  scratch.write("bad.dxf", "hello\n");
+  for (const auto& [file, said] :
+       {std::pair("none.dxf", "there is no file"), std::pair("bad.dxf", "bad.dxf:1: ")}) {
+    try {
+      read_in(scratch, generator_scene("\"dxf\": \"" + std::string(file) + "\""));
+      FAIL("was read");
+    } catch (const SceneError& error) {
+      REQUIRE(error.mistakes.size() == 1);
+      CHECK(error.mistakes[0].pointer == "/blocks/0/dxf");
+      CHECK_THAT(error.mistakes[0].message, Contains(said));
+    }
+  }
+}
