@@ -15,6 +15,10 @@ namespace po = boost::program_options;
 void add_plugin_path(Usage& usage) {
   usage.options.add_options()("plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
                               "look for plugins here first; may be given several times");
+  usage.options.add_options()("simd", po::value<std::string>()->value_name("LEVEL"),
+                              "instruction set of plugins and loops: scalar, avx2, avx512 or auto, the best "
+                              "this machine has (default); "
+                              "same bits at any");
 }
 
 void add_scene_options(Usage& usage) {
@@ -26,6 +30,25 @@ void add_scene_options(Usage& usage) {
                               "load the libraries that the scene names by path: they run with your rights");
 }
 
+namespace {
+
+SimdLevel simd_of(const Usage& usage, const po::variables_map& given) {
+  const SimdLevel best = best_simd_level();
+  const std::string name = given.count("simd") == 0 ? "auto" : given["simd"].as<std::string>();
+  if (name == "auto") return best;
+  const std::optional<SimdLevel> level = simd_level_named(name);
+  if (!level)
+    throw UsageError(usage.command, fmt::format("--simd {}: allowed are scalar, avx2, avx512, auto", name));
+  if (*level > best) {
+    throw UsageError(
+        usage.command,
+        fmt::format("--simd {}: this machine has no more than {}; leave it at auto", name, name_of(best)));
+  }
+  return *level;
+}
+
+}  // namespace
+
 Registry load_registry(const Usage& usage, const po::variables_map& given) {
   std::vector<std::filesystem::path> folders;
   for (const std::string& folder : list_option(given, "plugin-path")) {
@@ -35,6 +58,7 @@ Registry load_registry(const Usage& usage, const po::variables_map& given) {
     folders.emplace_back(folder);
   }
   Registry registry;
+  registry.simd = simd_of(usage, given);
   load_folders(registry, search_path(folders));
   return registry;
 }

@@ -79,7 +79,7 @@ void print_covers(const Scene& scene, const Simulation& simulation) {
 
 void print_time(const Scene& scene, const Simulation& simulation) {
   const double critical = simulation.critical_dt();
-  const double dt = scene.time.dt.value_or(scene.time.safety * critical);
+  const double dt = scene.time.dt.value_or(simulation.automatic_dt());
   const std::string& limiter = simulation.summary().dt_limiter;
   print_row("time",
             fmt::format("to {:.6g} s, step {:.6g} s ({}): {:.3g} of critical, {:.6g} s", scene.time.end, dt,

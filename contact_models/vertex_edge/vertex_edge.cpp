@@ -57,7 +57,8 @@ class VertexEdge final : public ContactModel {
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto work = std::make_unique<Workspace>();
-    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const std::uint32_t i = batch.active[k];
       evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
     }
   }

@@ -146,7 +146,7 @@ void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
   double smallest = 0;
   for (std::size_t i = 0; i < order.scenes.size(); ++i) {
     const Simulation simulation(order.scenes[i], RunSettings{});
-    const double own = order.scenes[i].time.safety * simulation.critical_dt();
+    const double own = simulation.automatic_dt();
     comparison.runs[i].own_dt = own;
     smallest = i == 0 ? own : std::min(smallest, own);
   }

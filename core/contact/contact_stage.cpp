@@ -78,10 +78,12 @@ void ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   if (!law_) return;
   // Both bodies of a pair may have moved; the boxes leave skin/2 to each.
   slack_ -= travelled;
+  travelled_ += travelled;
   if (slack_ > 0) return;
   search_.find(model, motion, skin_, candidates_);
   rebuild_pairs(model);
   measure_clear_depths(model, motion);
+  travelled_ = 0;
   slack_ = skin_ / 2;
   ++searches_;
 }
@@ -124,12 +126,15 @@ void ContactStage::rebuild_pairs(const Model& model) {
   load_x_.resize(loads);
   load_y_.resize(loads);
   pair_reports_.resize(pairs_.size());
+  ask_again_.assign(pairs_.size(), 0.0);
+  active_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
   sort_loads_by_body(model);
 
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);
-  capacities_.assign(pairs_.size(), first_capacity);
+  capacities_.clear();
+  for (const BodyPair& pair : pairs_) capacities_.push_back(pair.plain_corners > 0 ? 1 : first_capacity);
   std::size_t old = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const auto before = [&](const BodyPair& p) {
@@ -215,21 +220,40 @@ bool ContactStage::call_law(const Model& model, const MotionState& motion, const
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
   workers_.over(pairs_.size(), pair_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    const ContactBatch batch{
-        boundaries,          interfaces_,           pairs_.data() + begin,
-        piece_pairs_.data(), history_.data(),       static_cast<std::uint32_t>(end - begin),
-        conditions.dt,       conditions.hold_stick, conditions.bonds_form};
+    const std::uint32_t count = choose_active(begin, end);
+    const ContactBatch batch{boundaries,
+                             interfaces_,
+                             pairs_.data() + begin,
+                             piece_pairs_.data(),
+                             history_.data(),
+                             active_.data() + begin,
+                             count,
+                             conditions.dt,
+                             conditions.hold_stick,
+                             conditions.bonds_form};
     law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
                            conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
-    chunk_totals_[chunk] = total(begin, end);
+    chunk_totals_[chunk] = total({active_.data() + begin, count}, begin);
   });
   return std::none_of(chunk_totals_.begin(), chunk_totals_.end(),
                       [](const ChunkTotals& chunk) { return chunk.short_of_room; });
 }
 
-ContactStage::ChunkTotals ContactStage::total(std::size_t begin, std::size_t end) {
-  ChunkTotals totals;
+/// Pairs that were apart need no look until both bodies together may have closed the gap.
+std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end) {
+  std::uint32_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
+    active_[begin + count] = static_cast<std::uint32_t>(i - begin);
+    count += ask_again_[i] <= travelled_ ? 1 : 0;
+  }
+  return count;
+}
+
+ContactStage::ChunkTotals ContactStage::total(std::span<const std::uint32_t> active, std::size_t begin) {
+  ChunkTotals totals;
+  totals.active = static_cast<std::uint32_t>(active.size());
+  for (const std::uint32_t in_chunk : active) {
+    const std::size_t i = begin + in_chunk;
     const PairReport& report = pair_reports_[i];
     totals.stored += report.stored;
     totals.slip_loss += report.slip_loss;
@@ -256,10 +280,13 @@ void ContactStage::make_room() {
 
 /// What the law found becomes what it is told of the previous step next time.
 ContactTotals ContactStage::close_step() {
-  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      pairs_[i].contact_count = pair_reports_[i].contact_count;
-      damping_power_[i] = pair_reports_[i].damping_power;
+  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t) {
+    for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
+      const std::size_t i = begin + active_[begin + k];
+      const PairReport& report = pair_reports_[i];
+      pairs_[i].contact_count = report.contact_count;
+      damping_power_[i] = report.damping_power;
+      ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
     }
   });
   ContactTotals totals;

@@ -64,8 +64,10 @@ class ContactStage {
   bool call_law(const Model& model, const MotionState& motion, const Conditions& conditions);
   struct ChunkTotals : ContactTotals {
     bool short_of_room = false;
+    std::uint32_t active = 0;
   };
-  ChunkTotals total(std::size_t begin, std::size_t end);
+  std::uint32_t choose_active(std::size_t begin, std::size_t end);
+  ChunkTotals total(std::span<const std::uint32_t> active, std::size_t begin);
   ContactTotals close_step();
   void add_loads(const Model& model, MotionState& motion);
   void add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
@@ -92,6 +94,9 @@ class ContactStage {
   std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body
   std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
   std::vector<ChunkTotals> chunk_totals_;
+  double travelled_ = 0;               ///< m, bound of what a corner has moved since the last search
+  std::vector<double> ask_again_;      ///< [pair] m, of travelled_
+  std::vector<std::uint32_t> active_;  ///< pairs a law is to be asked about, chunk by chunk of pairs
   std::vector<double> damping_power_, old_damping_power_;  ///< [pair] J/m of the last step
   std::vector<std::uint32_t> capacities_;
   std::vector<double> history_, next_history_;

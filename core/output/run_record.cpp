@@ -42,12 +42,14 @@ Json libraries_json(const Scene& scene) {
   return list;
 }
 
-Json settings_json(const RunOrder& order) {
+Json settings_json(const RunOrder& order, const Scene& scene) {
   Json overrides = Json::array();
   for (const Override& change : order.overrides) {
     overrides.push_back({{"pointer", change.pointer}, {"value", change.value}});
   }
-  Json settings{{"threads", order.settings.threads}, {"neighbour_skin", order.settings.neighbour_skin}};
+  Json settings{{"threads", order.settings.threads},
+                {"neighbour_skin", order.settings.neighbour_skin},
+                {"simd", std::string(name_of(scene.simd))}};
   settings["largest_dt [s]"] =
       order.settings.largest_dt > 0 ? Json(order.settings.largest_dt) : Json(nullptr);
   settings["set"] = overrides;
@@ -118,7 +120,7 @@ std::string run_record(const Scene& scene, const RunOrder& order, const RunResul
   record["t [s]"] = result.time;
   record["scene"] = {{"file", scene.file}, {"title", scene.title}, {"xxh3_128", order.scene_hash}};
   record["plugins"] = libraries_json(scene);
-  record["settings"] = settings_json(order);
+  record["settings"] = settings_json(order, scene);
   record["bodies"] = scene.bodies.size();
   record["blocks"] = result.blocks;
   record["steps"] = summary.steps;

@@ -78,6 +78,7 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
   Reading reading{registry, mistakes};
   reading.folder = std::filesystem::path(name).parent_path();
   reading.scene.file = name;
+  reading.scene.simd = registry.simd;
   Expansion expansion;
   if (parsed.value.is_object()) expansion = expand_blocks(parsed.value, reading.folder, mistakes);
   reading.unmade = expansion.unmade;

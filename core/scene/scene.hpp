@@ -169,7 +169,8 @@ struct Tolerance {
 /// A scene that passed validation.
 struct Scene {
   std::string file, title;
-  Vec2 origin;  ///< m, world coordinates of the scene's (0, 0); added on output only
+  SimdLevel simd = SimdLevel::scalar;  ///< of the registry it was read with
+  Vec2 origin;                         ///< m, world coordinates of the scene's (0, 0); added on output only
   Vec2 gravity;
   std::vector<SceneMaterial> materials;
   std::vector<SurfaceClass> surfaces;

@@ -100,6 +100,9 @@ double Simulation::time() const {
 double Simulation::critical_dt() const {
   return state_->critical.dt;
 }
+double Simulation::automatic_dt() const {
+  return automatic_step(state_->critical, state_->scene.time.safety);
+}
 const EnergyLedger& Simulation::ledger() const {
   return state_->ledger.ledger();
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "plugin/simd_level.hpp"
 #include "scene/scene.hpp"
 #include "simulation/time_step.hpp"
 
@@ -21,9 +20,8 @@ class NumericalTrouble : public std::runtime_error {
 
 struct RunSettings {
   int threads = 1;
-  bool neighbour_skin = true;          ///< off: candidate pairs are sought anew every step, for checking
-  double largest_dt = 0;               ///< s, cap on the automatic step; 0 for none
-  SimdLevel simd = best_simd_level();  ///< for the loops of the core; same bits at any
+  bool neighbour_skin = true;  ///< off: candidate pairs are sought anew every step, for checking
+  double largest_dt = 0;       ///< s, cap on the automatic step; 0 for none
 };
 
 /// Energies per metre of thickness, J/m, since t = 0.
@@ -107,6 +105,7 @@ class Simulation {
   bool history_due() const;        ///< whether the present output time is one of the history
   bool frame_due() const;          ///< whether it is one of the frames
   double critical_dt() const;      ///< s, bound over strain modes and contacts
+  double automatic_dt() const;     ///< s, what "auto" takes as long as nothing moves too fast for it
   std::string state_hash() const;  ///< of displacements, velocities and contact history
 
   std::size_t body_count() const;

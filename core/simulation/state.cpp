@@ -28,9 +28,9 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
       workers(settings.threads),
       model(build_model(scene)),
       motion(model),
-      blocks(model, settings.simd, workers),
+      blocks(model, scene.simd, workers),
       mass(model),
-      contacts(scene, model, workers, settings.neighbour_skin, settings.simd),
+      contacts(scene, model, workers, settings.neighbour_skin, scene.simd),
       deformation(scene, model),
       loads(scene, stage, model),
       relaxation(model),
@@ -157,7 +157,7 @@ void Simulation::State::begin_due_stages() {
 
 double Simulation::State::nominal_dt() const {
   if (scene.time.dt) return *scene.time.dt;
-  const double dt = scene.time.safety * critical.dt;
+  const double dt = automatic_step(critical, scene.time.safety);
   return settings.largest_dt > 0 ? std::min(dt, settings.largest_dt) : dt;
 }
 

@@ -47,24 +47,58 @@ double length_of(const BoundarySide& side) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-Meetings meetings(const Model& model, std::uint32_t index, std::size_t surface_count) {
-  Meetings result{std::vector<char>(surface_count, 0)};
-  const Body& own = model.bodies[index];
-  for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
-    const Body& body = model.bodies[other];
-    if (other == index && !body.meets_itself) continue;
-    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-      if (model.surface[c] != internal_side) result.surfaces[model.surface[c]] = 1;
+/// What all bodies show each other, counted once.
+class Crowd {
+ public:
+  Crowd(const Model& model, std::size_t surface_count) : model_(model), showing_(surface_count, 0) {
+    for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
+      for (const std::uint32_t surface : surfaces_of(model.bodies[i])) ++showing_[surface];
+      if (!model.moves(i)) continue;
+      const double mass = model.bodies[i].contact_mass;
+      if (mass < lightest_) {
+        second_lightest_ = lightest_;
+        lightest_ = mass;
+        lightest_body_ = i;
+      } else {
+        second_lightest_ = std::min(second_lightest_, mass);
+      }
     }
-    if (model.moves(other)) {
-      const double ratio = own.contact_mass / body.contact_mass;
-      result.stiffness_factor = std::max(result.stiffness_factor, 1 + std::sqrt(ratio));
+  }
+
+  /// What a body can meet: all others, and itself where it may.
+  Meetings met_by(std::uint32_t index) const {
+    const Body& own = model_.bodies[index];
+    Meetings result{std::vector<char>(showing_.size(), 0)};
+    std::vector<std::size_t> others = showing_;
+    if (!own.meets_itself) {
+      for (const std::uint32_t surface : surfaces_of(own)) --others[surface];
+    }
+    for (std::size_t i = 0; i < others.size(); ++i) result.surfaces[i] = others[i] > 0 ? 1 : 0;
+    const double lightest = index == lightest_body_ && !own.meets_itself ? second_lightest_ : lightest_;
+    if (std::isfinite(lightest)) {
+      result.stiffness_factor = 1 + std::sqrt(own.contact_mass / lightest);
       // c = 2ζ√(k m_a m_b/(m_a + m_b)) split alike: (1 + √r)/√(1 + r) is at most √2.
       result.damping_factor = std::sqrt(2.0);
     }
+    return result;
   }
-  return result;
-}
+
+ private:
+  std::vector<std::uint32_t> surfaces_of(const Body& body) const {
+    std::vector<std::uint32_t> surfaces;
+    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+      if (model_.surface[c] != internal_side) surfaces.push_back(model_.surface[c]);
+    }
+    std::sort(surfaces.begin(), surfaces.end());
+    surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+    return surfaces;
+  }
+
+  const Model& model_;
+  std::vector<std::size_t> showing_;  ///< [surface] how many bodies have it
+  double lightest_ = std::numeric_limits<double>::infinity(), second_lightest_ = lightest_;
+  std::uint32_t lightest_body_ = 0;
+};
 
 /// Dashpots of an absorbing boundary: the stiffer of the two at both ends.
 double impedance(const Scene& scene, std::uint32_t body) {
@@ -76,7 +110,7 @@ double impedance(const Scene& scene, std::uint32_t body) {
 }
 
 SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, const Model& model,
-                          const ContactStage& contacts, std::uint32_t index) {
+                          const ContactStage& contacts, const Crowd& crowd, std::uint32_t index) {
   const Body& body = model.bodies[index];
   SpringsOfSides springs(body.side_end - body.side_begin);
   const auto on_surface = [&](std::uint32_t surface, const auto& visit) {
@@ -86,7 +120,7 @@ SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, con
     }
   };
   if (contacts.law() != nullptr) {
-    const Meetings met = meetings(model, index, contacts.interfaces().surface_count);
+    const Meetings met = crowd.met_by(index);
     for (std::size_t i = 0; i < springs.size(); ++i) {
       const BoundarySide& side = model.sides[body.side_begin + i];
       springs[i] = stiffest_meeting(body, side.surface, length_of(side), contacts, met);
@@ -131,12 +165,12 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
 }
 
 CriticalStep vote(const Scene& scene, const StageSettings& settings, const Model& model,
-                  const ContactStage& contacts, std::uint32_t index) {
-  const SpringsOfSides springs = springs_of(scene, settings, model, contacts, index);
+                  const ContactStage& contacts, const Crowd& crowd, std::uint32_t index) {
+  const SpringsOfSides springs = springs_of(scene, settings, model, contacts, crowd, index);
   const BodyVote vote = model.covered(index) ? vote_of_patches(scene, model, index, springs)
                                              : vote_as_a_whole(scene, model, index, springs);
   const bool elastic = vote.elastic_lambda > 0.5 * vote.lambda;
-  return {stable_step(vote.lambda, vote.gamma),
+  return {stable_step(vote.lambda, vote.gamma), stable_step(vote.lambda, 0),
           fmt::format("body '{}': {}", scene.bodies[index].name,
                       elastic ? "mostly its strain modes" : "mostly its contacts")};
 }
@@ -145,17 +179,26 @@ CriticalStep vote(const Scene& scene, const StageSettings& settings, const Model
 
 CriticalStep critical_step(const Scene& scene, const StageSettings& settings, const Model& model,
                            const ContactStage& contacts) {
-  CriticalStep smallest{std::numeric_limits<double>::infinity(), "nothing vibrates"};
+  constexpr double none = std::numeric_limits<double>::infinity();
+  CriticalStep smallest{none, none, "nothing vibrates"};
+  const Crowd crowd(model, contacts.interfaces().surface_count);
   std::vector<std::uint32_t> voted;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
     const auto alike = [&](std::uint32_t other) { return votes_alike(scene, settings, model, i, other); };
     if (std::any_of(voted.begin(), voted.end(), alike)) continue;
     if (voted.size() < 64) voted.push_back(i);
-    CriticalStep here = vote(scene, settings, model, contacts, i);
+    CriticalStep here = vote(scene, settings, model, contacts, crowd, i);
+    const double undamped = std::min(smallest.undamped_dt, here.undamped_dt);
     if (here.dt < smallest.dt) smallest = std::move(here);
+    smallest.undamped_dt = undamped;
   }
   return smallest;
+}
+
+double automatic_step(const CriticalStep& critical, double safety) {
+  constexpr double most_of_stable = 0.6;
+  return std::min(safety * critical.undamped_dt, std::max(safety, most_of_stable) * critical.dt);
 }
 
 std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model) {

@@ -11,6 +11,7 @@ namespace talus {
 
 struct CriticalStep {
   double dt;            ///< s
+  double undamped_dt;   ///< s, without dashpots: what the bounce of a contact is judged by
   std::string limiter;  ///< the body and what limits it, in words
 };
 
@@ -21,8 +22,14 @@ struct CriticalStep {
 /// A contact between moving bodies a and b is split by (q_a − q_b)² ≤ (1 + √(m_a/m_b)) q_a² + (1 +
 /// √(m_b/m_a)) q_b², so the votes of single bodies bound the coupled system; with a fixed body the factor
 /// is 1.
+///
+/// Dashpots lag by half a step and make the stable step shorter, but a bounce no less accurate; so the
+/// automatic step is a share of the undamped bound and kept well below the stable one.
 CriticalStep critical_step(const Scene& scene, const StageSettings& settings, const Model& model,
                            const ContactStage& contacts);
+
+/// The automatic step for a safety factor (Scene::TimeSettings::safety), s.
+double automatic_step(const CriticalStep& critical, double safety);
 
 /// What the treatment of slivers does to the stable step of a body without its contacts.
 struct SliverEffect {

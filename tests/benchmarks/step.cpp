@@ -34,7 +34,7 @@ void measure(benchmark::State& state, const Load& load, double warm_up, int thre
   const std::size_t before_model = resident_memory();
   double blocks = 0;
   for (const SceneBody& body : scene.bodies) blocks += body.fixed ? 0 : 1;
-  const double dt = scene.time.safety * Simulation(scene, {}).critical_dt();
+  const double dt = Simulation(scene, {}).automatic_dt();
   scene.time.dt = dt;
   const double steps = std::ceil(block_steps_per_iteration / blocks);
   scene.output.history = steps * dt;

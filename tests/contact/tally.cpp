@@ -19,7 +19,8 @@ class Tally final : public ContactModel {
   std::uint32_t doubles_per_contact() const noexcept override { return 1; }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
-    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const std::uint32_t i = batch.active[k];
       const BodyPair& pair = batch.pairs[i];
       loads.pairs[i] = {};
       loads.pairs[i].contact_count = contacts;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace talus::bench {
@@ -235,15 +236,18 @@ Evaluation LawBench::evaluate(double dt) {
     }
     std::vector<double> fx(loads, 0.0), fy(loads, 0.0), next(history.size(), not_a_number);
     std::vector<ContactReport> reports(slots);
-    std::vector<PairReport> pair_reports(pairs.size(),
-                                         {77, not_a_number, not_a_number, not_a_number, not_a_number});
+    std::vector<PairReport> pair_reports(
+        pairs.size(), {77, not_a_number, not_a_number, not_a_number, not_a_number, not_a_number});
+    std::vector<std::uint32_t> active(pairs.size());
+    std::iota(active.begin(), active.end(), 0U);
     const ContactBatch batch{
         arrays.view(),
         {row.data(), values.data(), surfaces, component_->component->interface_parameter_count},
         pairs.data(),
         piece_pairs.data(),
         history.data(),
-        static_cast<std::uint32_t>(pairs.size()),
+        active.data(),
+        static_cast<std::uint32_t>(active.size()),
         dt,
         hold_stick,
         bonds_form};

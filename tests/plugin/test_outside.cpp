@@ -36,6 +36,7 @@ struct TwoSquares {
   std::array<ContactReport, 4> reports{};
   PairReport report{};
   double clear_depth = 0;
+  std::uint32_t active = 0;
 
   explicit TwoSquares(double depth) {
     pair.b = 1;
@@ -54,7 +55,8 @@ struct TwoSquares {
     batch.interfaces = {&row, &stiffness, 1, 1};
     batch.pairs = &pair;
     batch.piece_pairs = &pieces;
-    batch.pair_count = 1;
+    batch.active = &active;
+    batch.active_count = 1;
     batch.dt = 1e-4;
     law.evaluate(batch, {fx.data(), fy.data(), nullptr, reports.data(), &report});
   }

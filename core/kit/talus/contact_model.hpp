@@ -71,10 +71,11 @@ struct BodyPair {
 struct ContactBatch {
   Boundaries boundaries;
   Interfaces interfaces;
-  const BodyPair* pairs;  ///< [pair_count]
+  const BodyPair* pairs;
   const PiecePair* piece_pairs;
-  const double* history;  ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
-  std::uint32_t pair_count;
+  const double* history;        ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
+  const std::uint32_t* active;  ///< [active_count] the pairs to evaluate, as indices into `pairs`, rising
+  std::uint32_t active_count;
   double dt;        ///< s, from t_{n-1} to t_n
   bool hold_stick;  ///< settling: friction is held stuck, no slip limit applies
   bool bonds_form;  ///< first evaluation and settling: contacts found now are born intact
@@ -97,17 +98,19 @@ struct PairReport {
   double stored;       ///< J/m, recoverable energy: normal and tangential springs
   double slip_loss;    ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
   double damping_power;  ///< J/m, damping force times displacement since t_{n-1}; never negative
+  double gap;  ///< m, 0, or of a pair without contact: the bodies are at least so far apart, and the law need
+               ///< not be asked again until they may have come so much closer
 };
 
 /// What a law fills in, in host memory sized by the host. Nothing is zero before the call: the law writes the
-/// report of every pair, and of a pair with contacts the loads of all its corners and the slots it counts. It
-/// writes only at indices of the pairs it was given.
+/// report of every active pair, and of a pair with contacts the loads of all its corners and the slots it
+/// counts. It writes only at indices of the pairs it was given.
 struct ContactLoads {
   double* fx;       ///< [load] N/m at corners: PiecePair::load_start + position of the corner in the piece
   double* fy;       ///< [load] N/m
   double* history;  ///< [slot * doubles_per_contact] of t_n; separate from ContactBatch::history
   ContactReport* reports;  ///< [slot], or nullptr where nobody wants to see them
-  PairReport* pairs;       ///< [pair_count], like ContactBatch::pairs
+  PairReport* pairs;       ///< like ContactBatch::pairs
 };
 
 /// Springs a stretch of boundary can meet, for the time step.

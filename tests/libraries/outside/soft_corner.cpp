@@ -60,7 +60,8 @@ class SoftCorner final : public talus::ContactModel {
   std::uint32_t doubles_per_contact() const noexcept override { return 0; }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
-    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const std::uint32_t i = batch.active[k];
       const talus::BodyPair& pair = batch.pairs[i];
       loads.pairs[i] = {};
       for (std::uint32_t j = pair.piece_pair_start; j < pair.piece_pair_end; ++j) {
@@ -69,7 +70,8 @@ class SoftCorner final : public talus::ContactModel {
         const Piece a{batch.boundaries, start[pieces.a], start[pieces.a + 1], 0, 0, pieces.load_start};
         const Piece b{batch.boundaries, start[pieces.b], start[pieces.b + 1],
                       pair.offset_x,    pair.offset_y,   pieces.load_start + a.end - a.start};
-        for (std::uint32_t k = a.load_start; k < b.load(b.end); ++k) loads.fx[k] = loads.fy[k] = 0;
+        for (std::uint32_t load = a.load_start; load < b.load(b.end); ++load)
+          loads.fx[load] = loads.fy[load] = 0;
         push_out(a, b, 1, batch, pair, loads, loads.pairs[i]);
         push_out(b, a, -1, batch, pair, loads, loads.pairs[i]);
       }

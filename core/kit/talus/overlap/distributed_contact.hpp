@@ -24,7 +24,8 @@ class DistributedContact {
     };
     quadrilaterals_.clear();
     octagons_.clear();
-    for (std::uint32_t i = 0; i < batch.pair_count; ++i) {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const std::uint32_t i = batch.active[k];
       const BodyPair& pair = batch.pairs[i];
       if (pair.plain_corners == 0 || pair.contact_count > 1 || !fits_lanes(law)) {
         one_by_one(i);
@@ -42,8 +43,8 @@ class DistributedContact {
 
   /// The same one by one, whatever the bodies are.
   void evaluate_one_by_one(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
-    for (std::uint32_t i = 0; i < batch.pair_count; ++i)
-      evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
+    for (std::uint32_t k = 0; k < batch.active_count; ++k)
+      evaluate_pair(law, batch, loads, batch.pairs[batch.active[k]], loads.pairs[batch.active[k]]);
   }
 
  private:

@@ -160,8 +160,8 @@ class LaneCells {
     at.valid = valid;
     at.start = t0;
     at.end = t1;
-    at.start_lever = s0 / l;
-    at.end_lever = s1 / l;
+    at.start_lever = s0 * master.inverse_length[k];
+    at.end_lever = s1 * master.inverse_length[k];
     at.length = simd::only_where(valid, (t1 - t0) * slave.length[j]);
     at.share = at.length * (d0 + d1) * 0.5;
     const Pack scale = stiffness * at.length * sixth;

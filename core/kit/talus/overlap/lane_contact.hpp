@@ -63,14 +63,17 @@ class LaneContact {
     LaneShape<corners> shape[2];
     shape[0].read(pieces[0]);
     shape[1].read(pieces[1]);
-    alignas(64) double facing[2][lanes];
-    const Mask apart = separated(shape[0], shape[1], facing[0]) | separated(shape[1], shape[0], facing[1]);
-    const unsigned apart_bits = simd::bits(apart);
+    alignas(64) double facing[2][lanes], gap[lanes];
+    const Pack least =
+        simd::min(least_reach(shape[0], shape[1], facing[0]), least_reach(shape[1], shape[0], facing[1]));
+    const unsigned apart_bits = simd::bits(least <= 0.0);
+    simd::store(-least, gap);
     for (int lane = 0; lane < count; ++lane) {
       const BodyPair& at = batch.pairs[pair[lane]];
       if ((apart_bits >> lane & 1) != 0) {
         PairReport& report = loads.pairs[pair[lane]];
         report = {};
+        report.gap = gap[lane];
         if constexpr (Law::frictional) report.slip_loss = stored_before(batch, at);
         continue;
       }
@@ -83,8 +86,9 @@ class LaneContact {
     }
   }
 
-  /// Whether some side has all of `other` outside; `facing` gets the side that `other` reaches least behind.
-  static Mask separated(const LaneShape<corners>& shape, const LaneShape<corners>& other, double* facing) {
+  /// How far `other` reaches behind the side it reaches least behind, `facing`; not at all: they are as far
+  /// apart.
+  static Pack least_reach(const LaneShape<corners>& shape, const LaneShape<corners>& other, double* facing) {
     Pack least = 1e300, side = 0.0;
     for (int k = 0; k < corners; ++k) {
       Pack deepest = shape.depth(k, other.at[0]);
@@ -94,7 +98,7 @@ class LaneContact {
       side = simd::select(less, static_cast<double>(k), side);
     }
     simd::store(side, facing);
-    return least <= 0.0;
+    return least;
   }
 
   static double stored_before(const ContactBatch& batch, const BodyPair& pair) {
@@ -111,8 +115,9 @@ class LaneContact {
     bool swapped[lanes];  ///< piece 0 is that of body b
     LanePieces pieces[2];
     alignas(64) double parameter[5][lanes], reduced_mass[lanes], side[lanes];
-    alignas(64) double history[friction_doubles][lanes];
+    const double* history[lanes];  ///< of the previous step, or zeros
   };
+  static constexpr double none[4] = {0, 0, 0, 0};
 
   template <class General>
   void group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
@@ -175,11 +180,7 @@ class LaneContact {
       g.parameter[3][lane] = parameters.normal_damping;
       g.parameter[4][lane] = parameters.tangential_damping;
       g.reduced_mass[lane] = pair.reduced_mass;
-      if constexpr (Law::frictional) {
-        const double* history = batch.history + pair.slot_start * friction_doubles;
-        for (unsigned i = 0; i < friction_doubles; ++i)
-          g.history[i][lane] = pair.contact_count == 0 ? 0 : history[i];
-      }
+      g.history[lane] = pair.contact_count == 0 ? none : batch.history + pair.slot_start * friction_doubles;
     }
   }
 
@@ -299,7 +300,7 @@ class LaneContact {
           const Pack here =
               simd::only_where(cells.share[k] > 0.0, part * cells.segment[k][j].share / cells.share[k]);
           const Packs2 from = foot - slave.at[j];
-          const Pack end = here * simd::dot(slave.tangent[j], from) / slave.length[j];
+          const Pack end = here * simd::dot(slave.tangent[j], from) * slave.inverse_length[j];
           const Pack turn = here * simd::cross(slave.tangent[j], from);
           force[j] = force[j] + here;
           at_end[j] = at_end[j] + end;
@@ -310,7 +311,8 @@ class LaneContact {
       for (int j = 0; j < corners; ++j) {
         if (!loaded[j]) continue;
         const Packs2 normal = slave.normal(j);
-        const Pack across = couple[j] * simd::cross(Packs2{-normal.x, -normal.y}, tangent_) / slave.length[j];
+        const Pack across =
+            couple[j] * simd::cross(Packs2{-normal.x, -normal.y}, tangent_) * slave.inverse_length[j];
         unit.add(1 - role, j, force[j] - at_end[j], tangent_);
         unit.add(1 - role, j, across, normal);
         unit.add(1 - role, j + 1, at_end[j], tangent_);
@@ -335,8 +337,9 @@ class LaneContact {
     }
     const Pack increment = slip * batch.dt;
 
-    const Pack old_elastic = simd::load(g.history[0]), old_applied = simd::load(g.history[1]),
-               old_stored = simd::load(g.history[2]), old_length = simd::load(g.history[3]);
+    Pack old[4];
+    simd::gather_rows(g.history, old);
+    const Pack old_elastic = old[0], old_applied = old[1], old_stored = old[2], old_length = old[3];
     const Pack limit = simd::load(g.parameter[2]) * load;
     const Mask holds = (limit > 0.0) & (contact_length_ > 0.0);
     const Pack bound = batch.hold_stick ? Pack(1e300) : limit;
@@ -415,7 +418,7 @@ class LaneContact {
         fx += size;
         fy += size;
       }
-      loads.pairs[g.pair[lane]] = {1, energy[1][lane], energy[0][lane], energy[2][lane], energy[3][lane]};
+      loads.pairs[g.pair[lane]] = {1, energy[1][lane], energy[0][lane], energy[2][lane], energy[3][lane], 0};
       if constexpr (Law::frictional) {
         double* to = loads.history + pair.slot_start * friction_doubles;
         for (unsigned i = 0; i < 7; ++i) to[i] = history[i][lane];

@@ -76,7 +76,7 @@ struct LaneShape {
 template <int corners>
 struct LanePiece : LaneShape<corners> {
   Packs2 velocity[corners + 1];
-  Pack length[corners];
+  Pack length[corners], inverse_length[corners];
   Packs2 last_tangent;  ///< of the side that ends at corner 0
   Pack clear_depth;
   Mask degenerate;  ///< has a side without length
@@ -91,6 +91,7 @@ struct LanePiece : LaneShape<corners> {
       read_rows(corner, true, row);
       velocity[i] = {row[0], row[1]};
       length[i] = row[2];
+      inverse_length[i] = 1.0 / length[i];
       degenerate = degenerate | (length[i] <= 0.0);
     }
     velocity[corners] = velocity[0];
