@@ -37,14 +37,18 @@ struct MotionState {
 
   std::vector<BodyMotion> bodies;  ///< of a body of many elements: the mean, as of the last average()
   std::vector<BodyForce> forces;
-  std::vector<Vec2> patch_displacement;              ///< [patch] m
-  std::vector<Vec2> patch_velocity;                  ///< [patch] m/s
-  std::vector<Vec2> patch_force;                     ///< [patch] N/m
+  std::vector<Vec2> patch_displacement;  ///< [patch] m
+  std::vector<Vec2> patch_velocity;      ///< [patch] m/s
+  std::vector<Vec2> patch_force;         ///< [patch] N/m
+  double own_behind = 0;  ///< s of motion that own patches (see Partition) have yet to catch up with
   std::vector<double> x, y, vx, vy;                  ///< [corner] in the frame of the body, m, m/s
   std::vector<double> tangent_x, tangent_y, length;  ///< [corner] of the side that starts there
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
+
+  /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
+  void clear_forces(const Model& model);
 
   /// Takes all velocities away.
   void stop();
