@@ -76,25 +76,27 @@ void Simulation::State::begin(double end) {
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
-  for (BodyForce& force : motion.forces) force = {};
-  for (Vec2& force : motion.patch_force) force = {};
+  motion.clear_forces(model);
   motion.move_boundary(model);  // Eq. 11
   speeds = motion.speeds();
   contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
   const double interface_work = evaluate_contacts();               // Eqs. 28–48
-  strain_energy = deformation.apply(model, motion, dt_behind);     // Eq. 18
   loads.apply(motion, settling ? 0 : time, dt_behind);             // Eqs. 19–20
   const Vec2 pull = gravity();
+  const Damping& how = settling ? scene.settle->damping : stage.damping;
+  const bool at_once = !forces_first(how), keep = watched || plan.done == 0;
+  if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, keep);  // Eq. 18
   if (settling && scene.settle->until) {
     unbalanced_share =
         relaxation.unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
   }
-  const Damping& how = settling ? scene.settle->damping : stage.damping;
   const double damping = relaxation.damping(how, model, motion, dt_behind);
-  const AccelerationWork work =
-      accelerate(model, mass, stage.supports,
-                 {pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling}, motion,
-                 at_time);  // Eqs. 23–24
+  const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
+  if (at_once)
+    strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, keep, motion,
+                                                 at_time);  // Eqs. 18, 23–24
+  const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, motion, at_time,
+                                           deformation.updated());  // Eqs. 23–24
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
@@ -102,6 +104,11 @@ void Simulation::State::forces() {
     ledger.lose_kinetic();
   }
   fresh = false;
+}
+
+/// Whether all forces have to be known before any patch can go on.
+bool Simulation::State::forces_first(const Damping& how) const {
+  return how.kind == Damping::Kind::adaptive || (settling && scene.settle->until);
 }
 
 /// Returns the work of a stage that changes the parameters of closed contacts: what they hold and have just

@@ -35,6 +35,7 @@ struct Simulation::State {
   bool settling = false;
   bool fresh = true;         ///< no contact has been evaluated yet
   bool started = false;      ///< t = 0 has been reached
+  bool watched = false;      ///< the coming step is the last before the state is looked at
   std::uint64_t output = 0;  ///< number of the output time reached last
 
   /// Equal steps to a time that is hit exactly.
@@ -70,6 +71,7 @@ struct Simulation::State {
   double allowed_dt() const;
 
   void forces();
+  bool forces_first(const Damping& how) const;
   void begin_due_stages();
   Vec2 gravity() const;
   bool settled() const;
