@@ -1,11 +1,15 @@
 #include "model/covered_body.hpp"
 
+#include "model/region.hpp"
 #include "model/strips.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -27,6 +31,15 @@ Element element_of(const LaidCover& cover, const LaidCover::LaidElement& laid, s
   return element;
 }
 
+/// Triangles of a lattice are alike: what tells them apart is rounding.
+void make_regular(Element& element, int sign, const RegularLattice& lattice) {
+  const auto& g = lattice.gradient;
+  const double s = sign;
+  element.gradient = {Vec2{-s * (g[0] + g[2]), -s * (g[1] + g[3])}, Vec2{s * g[0], s * g[1]},
+                      Vec2{s * g[2], s * g[3]}};
+  element.area = lattice.area;
+}
+
 /// Side of an equilateral triangle as large as that of the star points, m.
 double size_of(const Element& element) {
   const Vec2 g = element.gradient[0], h = element.gradient[1];
@@ -35,7 +48,12 @@ double size_of(const Element& element) {
 }
 
 /// Row sums of the consistent mass (Eq. 17): ρ∫w_i, exact on the cut region.
-void add_mass(Model& model, const Element& element, const AreaMoments& region, double density) {
+void add_mass(Model& model, const Element& element, const LaidCover::LaidElement& laid, double density) {
+  if (laid.lattice != 0) {
+    for (const std::uint32_t patch : element.patch) model.patch_mass[patch] += density * element.area / 3;
+    return;
+  }
+  const AreaMoments& region = laid.moments;
   const Vec2 centroid{region.x / region.area, region.y / region.area};
   const Carrier carrier = model.carrier(element, centroid);
   for (std::size_t i = 0; i < 3; ++i)
@@ -126,27 +144,103 @@ double boundary_mass(const Model& model, const Body& body) {
   return count > 0 ? sum / static_cast<double>(count) : body.mass;
 }
 
+/// Elements that may turn out to carry a point: those nearest to it, and what is as near but for rounding.
+std::vector<std::uint32_t> carrying(const LaidCover& cover, const std::vector<Vec2>& points) {
+  std::vector<std::uint32_t> result;
+  for (const Vec2 point : points) {
+    double nearest = std::numeric_limits<double>::infinity(), reach = 0;
+    std::vector<std::pair<double, std::uint32_t>> found;
+    for (std::uint32_t e = 0; e < cover.elements.size(); ++e) {
+      const LaidCover::LaidElement& element = cover.elements[e];
+      const std::array<double, 4> box = box_of(element.region);
+      reach = std::max(reach, 1e-6 * std::max(box[2] - box[0], box[3] - box[1]));
+      const auto within = [&](double squared) { return std::sqrt(squared) <= std::sqrt(nearest) + reach; };
+      if (!within(squared_distance(box, point))) continue;
+      const double distance = squared_distance(element.region, point);
+      if (!within(distance)) continue;
+      nearest = std::min(nearest, distance);
+      found.emplace_back(distance, e);
+    }
+    for (const auto& [distance, element] : found) {
+      if (std::sqrt(distance) <= std::sqrt(nearest) + reach) result.push_back(element);
+    }
+  }
+  return result;
+}
+
+/// The triangles of any shape of a body, as its subdomains go through them.
+void fill_triangles(Model& model, const Body& body, const std::vector<Element>& elements) {
+  Partition& partition = model.partition;
+  const std::size_t count = partition.corner[0].size();
+  for (auto& component : partition.gradient) component.resize(count);
+  partition.area.resize(count);
+  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
+    const Subdomain& subdomain = partition.subdomains[s];
+    for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
+      const ElementChunk& chunk = partition.chunks[c];
+      for (std::uint32_t i = 0; chunk.cells == 0 && i < chunk.count; ++i) {
+        const Element& element = elements[chunk.element + i];
+        const std::array<double, 4> gradient{element.gradient[1].x, element.gradient[1].y,
+                                             element.gradient[2].x, element.gradient[2].y};
+        for (std::size_t k = 0; k < 4; ++k) partition.gradient[k][chunk.triangle + i] = gradient[k];
+        partition.area[chunk.triangle + i] = element.area;
+      }
+    }
+    for (std::uint32_t r = subdomain.run_begin; r < subdomain.run_end; ++r) {
+      PatchRun& run = partition.runs[r];
+      const auto first = model.patch_mass.begin() + run.patch;
+      run.same_mass = std::all_of(first, first + run.count, [&](double mass) { return mass == *first; });
+    }
+  }
+}
+
+/// The slots of each common patch of a body, in the order of the subdomains.
+void list_slots(Partition& partition, Body& body) {
+  body.common_index = partition.common_count();
+  if (partition.common_start.empty()) partition.common_start.push_back(0);
+  const std::uint32_t count = body.patch_end - body.own_end;
+  const std::uint32_t begin = partition.subdomains[body.subdomain_begin].slot_begin;
+  const std::uint32_t end = partition.subdomains[body.subdomain_end - 1].slot_end;
+  std::vector<std::uint32_t> start(count + 1, 0);
+  for (std::uint32_t s = begin; s < end; ++s) ++start[partition.slot_patch[s] - body.own_end + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  for (std::uint32_t i = 1; i <= count; ++i) partition.common_start.push_back(begin + start[i]);
+  partition.common_slot.resize(end);
+  for (std::uint32_t s = begin; s < end; ++s)
+    partition.common_slot[begin + start[partition.slot_patch[s] - body.own_end]++] = s;
+}
+
 }  // namespace
 
-void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t index, const LaidCover& cover,
-                      double density) {
+void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t index, LaidCover cover,
+                      double density, const std::vector<Vec2>& loaded) {
   Body& body = model.bodies[index];
   body.patch_begin = static_cast<std::uint32_t>(model.patch_star.size());
+  body.subdomain_begin = static_cast<std::uint32_t>(model.partition.subdomains.size());
+  body.lattice = static_cast<std::uint32_t>(model.partition.lattices.size());
+  body.own_end =
+      body.patch_begin + partition_cover(model.partition, cover, carrying(cover, loaded), body.patch_begin);
+  body.subdomain_end = static_cast<std::uint32_t>(model.partition.subdomains.size());
+  const RegularLattice& lattice = model.partition.lattices[body.lattice];
   model.patch_star.insert(model.patch_star.end(), cover.patches.begin(), cover.patches.end());
   model.patch_mass.resize(model.patch_star.size(), 0.0);
   body.patch_end = static_cast<std::uint32_t>(model.patch_star.size());
 
   std::vector<Element> elements;
   double size = 0;
-  for (const LaidCover::LaidElement& laid : cover.elements) {
+  elements.reserve(cover.elements.size());
+  for (LaidCover::LaidElement& laid : cover.elements) {
     elements.push_back(element_of(cover, laid, index, body.patch_begin));
-    add_mass(model, elements.back(), laid.moments, density);
+    if (laid.lattice != 0) make_regular(elements.back(), laid.lattice, lattice);
+    add_mass(model, elements.back(), laid, density);
     size += size_of(elements.back());
     model.elements.push_back(elements.back());
-    model.element_region.push_back(laid.region);
+    model.element_region.push_back(std::move(laid.region));
   }
   steady_patches(model, body, cover, density);
   check_masses(model, body, scene_body);
+  fill_triangles(model, body, elements);
+  list_slots(model.partition, body);
   add_sides(model, scene_body, index, cover, elements);
   body.width = std::min(body.width, size / static_cast<double>(elements.size()));
   body.contact_mass = boundary_mass(model, body);

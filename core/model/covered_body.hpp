@@ -5,9 +5,10 @@
 
 namespace talus {
 
-/// Puts the patches, elements and boundary of a body of many elements into the model. Elements wait in
-/// `element_material` order: see sort_elements. Throws PluginError where a patch would have no mass.
-void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t index, const LaidCover& cover,
-                      double density);
+/// Puts the patches, elements and boundary of a body of many elements into the model. Elements wait for
+/// sort_elements. `loaded` are the places of loads on points, relative to the centroid. Throws PluginError
+/// where a patch would have no mass.
+void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t index, LaidCover cover,
+                      double density, const std::vector<Vec2>& loaded);
 
 }  // namespace talus

@@ -19,6 +19,7 @@ struct LaidCover {
     std::array<std::uint32_t, 3> patches;
     std::vector<Ring> region;
     AreaMoments moments;  ///< of the region, about the body's centroid
+    int lattice = 0;      ///< +1, −1: a whole lower or upper triangle of a regular lattice
   };
   struct BoundaryVertex {
     Vec2 at;

@@ -2,6 +2,7 @@
 
 #include "model/covered_body.hpp"
 #include "model/laid_cover.hpp"
+#include "model/region.hpp"
 #include "model/strips.hpp"
 
 #include <fmt/format.h>
@@ -76,6 +77,19 @@ void add_element_of_block(Model& model, std::uint32_t index) {
   model.element_region.emplace_back();
 }
 
+/// Where point loads act on a body in any stage, relative to its centroid.
+std::vector<Vec2> loaded_points(const Scene& scene, std::uint32_t body, Vec2 centre) {
+  std::vector<Vec2> points;
+  const auto append = [&](const std::vector<PointLoad>& loads) {
+    for (const PointLoad& load : loads) {
+      if (load.body == body) points.push_back({load.point.x - centre.x, load.point.y - centre.y});
+    }
+  };
+  append(scene.loads);
+  for (const Stage& stage : scene.stages) append(stage.settings.loads);
+  return points;
+}
+
 void add_body(Model& model, const Scene& scene, std::uint32_t index) {
   const SceneBody& scene_body = scene.bodies[index];
   Body& body = model.bodies.emplace_back();
@@ -88,7 +102,7 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
   body.corner_begin = static_cast<std::uint32_t>(model.surface.size());
   if (!scene_body.fixed) {
     const double density = scene.materials[scene_body.material].density;
-    const LaidCover cover = lay_cover(scene_body, body);
+    LaidCover cover = lay_cover(scene_body, body);
     set_mass(body, density);
     if (cover.rigid) {
       body.kinematics = Kinematics::rigid;
@@ -97,7 +111,8 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
       add_element_of_block(model, index);
     } else {
       body.kinematics = Kinematics::covered;
-      add_covered_body(model, scene_body, index, cover, density);
+      add_covered_body(model, scene_body, index, std::move(cover), density,
+                       loaded_points(scene, index, body.centre));
     }
   }
   if (scene_body.self_contact && !model.covered(index)) {
@@ -156,41 +171,6 @@ void measure_widths(Model& model) {
     model.smallest_width = std::min(model.smallest_width, body.width);
   }
   model.mean_width = moving > 0 ? sum / static_cast<double>(moving) : 0;
-}
-
-std::array<double, 4> box_of(const std::vector<Ring>& region) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  std::array<double, 4> box{far, far, -far, -far};
-  for (const Ring& ring : region) {
-    for (const Vec2 p : ring)
-      box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};
-  }
-  return box;
-}
-
-double squared_distance(const std::array<double, 4>& box, Vec2 p) {
-  const double dx = std::max({box[0] - p.x, 0.0, p.x - box[2]}),
-               dy = std::max({box[1] - p.y, 0.0, p.y - box[3]});
-  return dx * dx + dy * dy;
-}
-
-/// Squared distance to a region; 0 within it.
-double squared_distance(const std::vector<Ring>& region, Vec2 p) {
-  bool odd = false;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Ring& ring : region) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1];
-      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-      const Vec2 side{b.x - a.x, b.y - a.y};
-      const double length = side.x * side.x + side.y * side.y;
-      const double along = length > 0 ? ((p.x - a.x) * side.x + (p.y - a.y) * side.y) / length : 0;
-      const double place = std::clamp(along, 0.0, 1.0);
-      const double dx = p.x - a.x - place * side.x, dy = p.y - a.y - place * side.y;
-      nearest = std::min(nearest, dx * dx + dy * dy);
-    }
-  }
-  return odd ? 0 : nearest;
 }
 
 }  // namespace

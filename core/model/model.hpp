@@ -2,6 +2,7 @@
 
 #include "geometry/convex_pieces.hpp"
 #include "geometry/polygon.hpp"
+#include "model/partition.hpp"
 #include "scene/scene.hpp"
 
 #include <array>
@@ -80,6 +81,12 @@ struct Body {
   std::uint32_t patch_begin = 0, patch_end = 0;      ///< covered: its patches
   std::uint32_t steady_begin = 0, steady_end = 0;    ///< covered: its steadied patches
   std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
+
+  // Covered: how it is divided (see Partition).
+  std::uint32_t own_end = 0;                             ///< patches from patch_begin on that are own
+  std::uint32_t common_index = 0;                        ///< of patch own_end in Partition::common_start
+  std::uint32_t subdomain_begin = 0, subdomain_end = 0;  ///< its subdomains
+  std::uint32_t lattice = 0;                             ///< entry of Partition::lattices
 };
 
 /// The bodies of a scene as arrays.
@@ -113,6 +120,7 @@ struct Model {
   std::vector<double> patch_mass;  ///< [patch] kg per metre of thickness, row sum of Eq. 17
   std::vector<double> row_sum;     ///< [patch] the same before anything was done about slivers
   std::vector<SteadyPatch> steady;
+  Partition partition;
 
   // Elements of the bodies that deform, sorted by material.
   std::vector<Element> elements;
@@ -126,6 +134,9 @@ struct Model {
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
   bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
+
+  /// The first of a body's elements in `elements`, where those of a covered body lie side by side.
+  std::uint32_t first_element(const Body& body) const { return body_element[body.element_begin]; }
 
   /// A point of a body by its reference position; of a body of many elements, in the element it lies in or,
   /// outside all, nearest to.

@@ -66,6 +66,13 @@ void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
   }
 }
 
+void MotionState::clear_forces(const Model& model) {
+  for (BodyForce& force : forces) force = {};
+  for (const Body& body : model.bodies) {
+    for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) patch_force[p] = {};
+  }
+}
+
 void MotionState::stop() {
   for (BodyMotion& body : bodies) body.velocity = {}, body.rate = {}, body.spin = 0;
   for (Vec2& velocity : patch_velocity) velocity = {};

@@ -42,11 +42,15 @@ struct MotionState {
   std::vector<Vec2> patch_displacement;  ///< [patch] m
   std::vector<Vec2> patch_velocity;      ///< [patch] m/s
   std::vector<Vec2> patch_force;         ///< [patch] N/m
-  std::vector<BoundaryCorner> corners;   ///< in the frame of the body
+  double own_behind = 0;  ///< s of motion that own patches (see Partition) have yet to catch up with
+  std::vector<BoundaryCorner> corners;  ///< in the frame of the body
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
   void move_boundary_of(const Model& model, std::size_t body);
+
+  /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
+  void clear_forces(const Model& model);
 
   /// Takes all velocities away.
   void stop();

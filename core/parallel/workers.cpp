@@ -63,7 +63,7 @@ void Workers::serve(std::size_t number) {
 void Workers::take_part(std::size_t number) {
   const std::size_t all = others_.size() + 1;
   const std::size_t begin = chunks_ * number / all, end = chunks_ * (number + 1) / all;
-  for (std::size_t chunk = begin; chunk < end; ++chunk) call_(context_, chunk);
+  for (std::size_t chunk = begin; chunk < end; ++chunk) call_(context_, chunk, number);
 }
 
 }  // namespace talus

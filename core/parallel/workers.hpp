@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace talus {
@@ -20,26 +22,35 @@ class Workers {
 
   int threads() const { return static_cast<int>(others_.size()) + 1; }
 
-  /// Calls task(chunk, begin, end) for chunks of `size` that cover [0, count), each on some thread. Which one
-  /// cannot be seen in a result that is kept chunk by chunk. Tasks must not throw.
+  /// Calls task(chunk, begin, end), or task(chunk, begin, end, thread), for chunks of `size` that cover
+  /// [0, count), each on some thread. Which one cannot be seen in a result that is kept chunk by chunk. Tasks
+  /// must not throw.
   template <class Task>
   void over(std::size_t count, std::size_t size, const Task& task) {
     const std::size_t chunks = (count + size - 1) / size;
-    const auto run = [&](std::size_t chunk) {
+    const auto run = [&](std::size_t chunk, std::size_t thread) {
       const std::size_t begin = chunk * size, end = begin + size < count ? begin + size : count;
-      task(chunk, begin, end);
+      if constexpr (std::is_invocable_v<Task, std::size_t, std::size_t, std::size_t, std::size_t>) {
+        task(chunk, begin, end, thread);
+      } else {
+        (void)thread;
+        task(chunk, begin, end);
+      }
     };
     if (others_.empty() || chunks < 2) {
-      for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
+      for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk, 0);
       return;
     }
     share(
         chunks,
-        [](const void* context, std::size_t chunk) { (*static_cast<decltype(&run)>(context))(chunk); }, &run);
+        [](const void* context, std::size_t chunk, std::size_t thread) {
+          (*static_cast<decltype(&run)>(context))(chunk, thread);
+        },
+        &run);
   }
 
  private:
-  using Call = void (*)(const void* context, std::size_t chunk);
+  using Call = void (*)(const void* context, std::size_t chunk, std::size_t thread);
   void share(std::size_t chunks, Call call, const void* context);
   void serve(std::size_t number);
   void take_part(std::size_t number);

@@ -1,96 +1,144 @@
 #include "simulation/deformation.hpp"
 
-#include <algorithm>
-#include <limits>
+#include "simulation/patch_mass.hpp"
 
 namespace talus {
+namespace {
 
-Deformation::Deformation(const Scene& scene, const Model& model) {
-  const std::size_t count = model.elements.size();
-  for (int k = 0; k < 4; ++k) {
-    const double identity = k == 0 || k == 3 ? 1 : 0;
-    deformation_[k].assign(count, identity);
-    previous_[k].assign(count, identity);
-    stress_[k].assign(count, 0.0);
+constexpr std::size_t gather_chunk = 1024;  ///< common patches
+
+/// With equal steps, no damping and no gravity the kinetic energy needs one product alone.
+bool wants_all_sums(const StepConditions& c) {
+  const bool pulled =
+      c.gravity.x != 0 || c.gravity.y != 0 || c.gravity_behind.x != 0 || c.gravity_behind.y != 0;
+  return c.dt_behind != c.dt_ahead || c.damping > 0 || pulled;
+}
+
+}  // namespace
+
+Deformation::Deformation(const Scene& scene, const Model& model, Workers& workers)
+    : materials_(scene, model),
+      sweep_(model, scene.simd),
+      workers_(workers),
+      workspaces_(static_cast<std::size_t>(workers.threads()), sweep_.workspace()),
+      sums_(model.partition.subdomains.size()),
+      updated_(model.bodies.size()) {
+  for (std::uint32_t batch = 0; batch < materials_.count(); ++batch) {
+    bool open = false;
+    for (std::uint32_t e = materials_.begin(batch); e < materials_.end(batch); ++e) {
+      const bool block = model.elements[e].patch[0] == no_patch;
+      if (block && (!open || blocks_.back().count == ElementBuffer::most)) blocks_.push_back({batch, e, 0});
+      if (block) ++blocks_.back().count;
+      open = block;
+    }
   }
-  energy_.assign(count, 0.0);
-  dissipated_.assign(count, 0.0);
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const std::uint32_t begin = model.material_element_start[m], end = model.material_element_start[m + 1];
-    if (begin == end) continue;
-    const Choice& choice = scene.materials[m].model;
-    auto material = make<Material>(*choice.component, choice.values);
-    const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
-    batches_.push_back(
-        {std::move(material), begin, end, std::vector<double>(states), std::vector<double>(states)});
+  block_energies_.resize(blocks_.size());
+}
+
+Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt, bool keep) {
+  const Energy blocks = apply_to_blocks(model, dt, keep, motion);
+  for (OwnPatches& own : updated_) own = {};
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.covered(b)) sweep(model, b, {.dt = dt, .keep = keep}, motion);
+  }
+  motion.own_behind = 0;
+  const Energy many = energy_of_sweeps(model);
+  return {blocks.stored + many.stored, blocks.dissipated + many.dissipated};
+}
+
+Deformation::Energy Deformation::apply_and_update(const Model& model, const PatchMass& mass,
+                                                  std::span<const Support> supports,
+                                                  const StepConditions& conditions, bool keep,
+                                                  MotionState& motion, VelocitiesAtStep& at_step) {
+  const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
+  const Update update = update_of(conditions);
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.covered(b)) continue;
+    const Support& support = supports[b];
+    updated_[b] = {!support.x && !support.y && !support.rotation, {}};
+    SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = updated_[b].done};
+    step.velocity = {
+        update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
+    step.inverse_mass = mass.inverse().data();
+    step.share = share_of_after(conditions);
+    step.middle = at_step.patches.data();
+    sweep(model, b, step, motion);
+  }
+  motion.own_behind = 0;
+  const Energy many = energy_of_sweeps(model);
+  return {blocks.stored + many.stored, blocks.dissipated + many.dissipated};
+}
+
+void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep& step, MotionState& motion) {
+  const Body& body = model.bodies[index];
+  workers_.over(body.subdomain_end - body.subdomain_begin, 1,
+                [&](std::size_t, std::size_t begin, std::size_t end, std::size_t thread) {
+                  const auto first = static_cast<std::uint32_t>(body.subdomain_begin + begin),
+                             last = static_cast<std::uint32_t>(body.subdomain_begin + end);
+                  sweep_.run(model, body, first, last, step, materials_, motion, workspaces_[thread], sums_);
+                });
+  workers_.over(body.patch_end - body.own_end, gather_chunk,
+                [&](std::size_t, std::size_t begin, std::size_t end) {
+                  sweep_.gather(model, body, static_cast<std::uint32_t>(begin),
+                                static_cast<std::uint32_t>(end), motion);
+                });
+  if (!step.update) return;
+  kernels::VelocitySums& total = updated_[index].sums;
+  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
+    const kernels::VelocitySums& part = sums_[s].own;
+    total.before += part.before;
+    total.across += part.across;
+    total.after += part.after;
+    total.momentum[0] += part.momentum[0];
+    total.momentum[1] += part.momentum[1];
   }
 }
 
-Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt) {
-  if (batches_.empty()) return {};
-  for (int k = 0; k < 4; ++k) deformation_[k].swap(previous_[k]);
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
-    const Matrix2 h = element.patch[0] == no_patch ? motion.bodies[element.body].h
-                                                   : gradient(element, motion.patch_displacement);
-    deformation_[0][e] = 1 + h.xx;
-    deformation_[1][e] = h.xy;
-    deformation_[2][e] = h.yx;
-    deformation_[3][e] = 1 + h.yy;
-  }
-#ifdef TALUS_AUDIT
-  for (auto& component : stress_)
-    component.assign(component.size(), std::numeric_limits<double>::quiet_NaN());
-#endif
-  for (Batch& batch : batches_) {
-    MaterialBatch input{};
-    MaterialResponse output{};
-    for (int k = 0; k < 4; ++k) {
-      input.deformation[k] = deformation_[k].data() + batch.begin;
-      input.previous_deformation[k] = previous_[k].data() + batch.begin;
-      output.stress[k] = stress_[k].data() + batch.begin;
-    }
-    input.state = batch.state.data();
-    input.dt = dt;
-    input.count = batch.end - batch.begin;
-    output.energy = energy_.data() + batch.begin;
-    output.dissipated = dissipated_.data() + batch.begin;
-    output.state = batch.next_state.data();
-    batch.material->evaluate(input, output);
-    batch.state.swap(batch.next_state);
-  }
+Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {
   Energy total;
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
-    const double area = element.area;
-    total.stored += area * energy_[e];
-    total.dissipated += area * dissipated_[e];
-    if (element.patch[0] == no_patch) {
-      Matrix2& moment = motion.forces[element.body].moment;
-      moment.xx -= area * stress_[0][e];
-      moment.xy -= area * stress_[1][e];
-      moment.yx -= area * stress_[2][e];
-      moment.yy -= area * stress_[3][e];
-      continue;
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 g = element.gradient[i];
-      Vec2& force = motion.patch_force[element.patch[i]];
-      force.x -= area * (stress_[0][e] * g.x + stress_[1][e] * g.y);
-      force.y -= area * (stress_[2][e] * g.x + stress_[3][e] * g.y);
-    }
+  for (std::size_t s = 0; s < model.partition.subdomains.size(); ++s) {
+    total.stored += sums_[s].stored;
+    total.dissipated += sums_[s].dissipated;
   }
   return total;
 }
 
-/// σ = P Fᵀ / det F.
-std::array<double, 3> Deformation::cauchy_of_element(std::size_t e) const {
-  const double fxx = deformation_[0][e], fxy = deformation_[1][e], fyx = deformation_[2][e],
-               fyy = deformation_[3][e];
-  const double pxx = stress_[0][e], pxy = stress_[1][e], pyx = stress_[2][e], pyy = stress_[3][e];
-  const double volume = fxx * fyy - fxy * fyx;
-  const double xy = (pxx * fyx + pxy * fyy + pyx * fxx + pyy * fxy) / 2;
-  return {(pxx * fxx + pxy * fxy) / volume, (pyx * fyx + pyy * fyy) / volume, xy / volume};
+Deformation::Energy Deformation::apply_to_blocks(const Model& model, double dt, bool keep,
+                                                 MotionState& motion) {
+  workers_.over(blocks_.size(), 1, [&](std::size_t entry, std::size_t, std::size_t, std::size_t thread) {
+    block_energies_[entry] = apply_to(model, blocks_[entry], dt, keep, workspaces_[thread].elements, motion);
+  });
+  Energy total;
+  for (const Energy& part : block_energies_) {
+    total.stored += part.stored;
+    total.dissipated += part.dissipated;
+  }
+  return total;
+}
+
+Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& blocks, double dt, bool keep,
+                                          ElementBuffer& buffer, MotionState& motion) {
+  for (std::uint32_t i = 0; i < blocks.count; ++i) {
+    const Matrix2& h = motion.bodies[model.elements[blocks.element + i].body].h;
+    buffer.deformation[0][i] = 1 + h.xx;
+    buffer.deformation[1][i] = h.xy;
+    buffer.deformation[2][i] = h.yx;
+    buffer.deformation[3][i] = 1 + h.yy;
+  }
+  materials_.evaluate(blocks.batch, blocks.element, blocks.count, dt, keep, buffer);
+  Energy sum;
+  for (std::uint32_t i = 0; i < blocks.count; ++i) {
+    const Element& element = model.elements[blocks.element + i];
+    const double area = element.area;
+    sum.stored += area * buffer.energy[i];
+    sum.dissipated += area * buffer.dissipated[i];
+    Matrix2& moment = motion.forces[element.body].moment;
+    moment.xx -= area * buffer.stress[0][i];
+    moment.xy -= area * buffer.stress[1][i];
+    moment.yx -= area * buffer.stress[2][i];
+    moment.yy -= area * buffer.stress[3][i];
+  }
+  return sum;
 }
 
 std::array<double, 3> Deformation::cauchy(const Model& model, std::size_t body) const {
@@ -103,24 +151,6 @@ std::array<double, 3> Deformation::cauchy(const Model& model, std::size_t body) 
     for (std::size_t k = 0; k < 3; ++k) sum[k] += model.elements[e].area / b.moments.area * stress[k];
   }
   return sum;
-}
-
-std::vector<double> Deformation::memory() const {
-  std::vector<double> all;
-  for (const std::vector<double>& component : deformation_)
-    all.insert(all.end(), component.begin(), component.end());
-  for (const Batch& batch : batches_) all.insert(all.end(), batch.state.begin(), batch.state.end());
-  return all;
-}
-
-void Deformation::set_memory(const std::vector<double>& memory) {
-  const double* from = memory.data();
-  const auto take = [&](std::vector<double>& to) {
-    std::copy(from, from + to.size(), to.begin());
-    from += to.size();
-  };
-  for (std::vector<double>& component : deformation_) take(component);
-  for (Batch& batch : batches_) take(batch.state);
 }
 
 }  // namespace talus

@@ -2,46 +2,71 @@
 
 #include "model/model.hpp"
 #include "model/motion.hpp"
-#include "plugin/registry.hpp"
+#include "parallel/workers.hpp"
 #include "scene/scene.hpp"
-
-#include <talus/material.hpp>
+#include "simulation/element_sweep.hpp"
+#include "simulation/material_batches.hpp"
+#include "simulation/velocity_update.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace talus {
 
-/// Stress of the elements: one batch per material. Empty, and free of cost, where nothing deforms.
+/// Stress of the elements. Empty, and free of cost, where nothing deforms.
 class Deformation {
  public:
-  Deformation(const Scene& scene, const Model& model);
+  Deformation(const Scene& scene, const Model& model, Workers& workers);
 
   struct Energy {
     double stored = 0;      ///< J/m
     double dissipated = 0;  ///< J/m since t_{n-1}
   };
-  /// f_int (Eq. 18): adds −A P ∇w to the forces of the patches, −A P to the moments of affine blocks.
-  Energy apply(const Model& model, MotionState& motion, double dt);
+  /// f_int (Eq. 18): adds −A P ∇w to the forces of the patches, −A P to the moments of affine blocks. Own
+  /// patches of bodies of many elements (see Partition) catch up with MotionState::own_behind; their forces
+  /// are set, not added to, for nothing else acts on them. `keep`: stresses are wanted for output.
+  Energy apply(const Model& model, MotionState& motion, double dt, bool keep = true);
 
-  /// Cauchy stress xx, yy, xy, Pa, of an element.
-  std::array<double, 3> cauchy_of_element(std::size_t element) const;
+  /// The same, and own patches of bodies without supports go on to v₊ at once; accelerate() then does the
+  /// rest of them (see updated()). Their velocity at t_n is left in `at_step` where it is kept.
+  Energy apply_and_update(const Model& model, const PatchMass& mass, std::span<const Support> supports,
+                          const StepConditions& conditions, bool keep, MotionState& motion,
+                          VelocitiesAtStep& at_step);
+
+  /// [body] what the last call did to own patches.
+  const std::vector<OwnPatches>& updated() const { return updated_; }
+
+  /// Cauchy stress xx, yy, xy, Pa, of an element, when stresses were last kept.
+  std::array<double, 3> cauchy_of_element(std::size_t element) const { return materials_.cauchy(element); }
   /// Mean over the area of a body; zero for a body that does not deform.
   std::array<double, 3> cauchy(const Model& model, std::size_t body) const;
 
-  /// What a material remembers: deformation at t_n and its own state, to go on from elsewhere.
-  std::vector<double> memory() const;
-  void set_memory(const std::vector<double>& memory);
+  /// What the materials remember, to go on from elsewhere: their own states, and deformation at t_n where
+  /// they ask for it.
+  std::vector<double> memory() const { return materials_.memory(); }
+  void set_memory(const std::vector<double>& memory) { materials_.set_memory(memory); }
 
  private:
-  struct Batch {
-    Made<Material> material;
-    std::uint32_t begin, end;  ///< elements
-    std::vector<double> state, next_state;
+  /// Elements of affine blocks that lie side by side and have one material.
+  struct Blocks {
+    std::uint32_t batch, element, count;
   };
+  Energy apply_to_blocks(const Model& model, double dt, bool keep, MotionState& motion);
+  Energy apply_to(const Model& model, const Blocks& blocks, double dt, bool keep, ElementBuffer& buffer,
+                  MotionState& motion);
+  void sweep(const Model& model, std::uint32_t body, const SweepStep& step, MotionState& motion);
+  Energy energy_of_sweeps(const Model& model) const;
 
-  std::vector<Batch> batches_;
-  std::vector<double> deformation_[4], previous_[4], stress_[4], energy_, dissipated_;
+  MaterialBatches materials_;
+  ElementSweep sweep_;
+  Workers& workers_;
+  std::vector<ElementSweep::Workspace> workspaces_;  ///< [thread]
+  std::vector<SweepSums> sums_;                      ///< [subdomain]
+  std::vector<OwnPatches> updated_;
+
+  std::vector<Blocks> blocks_;
+  std::vector<Energy> block_energies_;  ///< [entry of blocks_]
 };
 
 }  // namespace talus

@@ -112,18 +112,17 @@ double kinetic_energy(const Body& body, double density, const BodyMotion& p, con
 
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
-                            MotionState& motion, VelocitiesAtStep& at_step) {
+                            MotionState& motion, VelocitiesAtStep& at_step,
+                            std::span<const OwnPatches> updated) {
   AccelerationWork work;
   blocks.accelerate(conditions, motion, observed ? at_step.bodies.data() : nullptr, work);
-  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
-  const double half_damping = conditions.damping * dt / 2;
-  const Update update{(1 - half_damping) / (1 + half_damping), dt / (1 + half_damping)};
+  const Update update = update_of(conditions);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     if (body.kinematics == Kinematics::fixed || blocks.is_free(static_cast<std::uint32_t>(i))) continue;
     if (body.kinematics == Kinematics::covered) {
-      accelerate_patches(model, mass, static_cast<std::uint32_t>(i), supports[i], conditions, update, motion,
-                         at_step, work);
+      accelerate_patches(model, mass, static_cast<std::uint32_t>(i), supports[i], conditions, update,
+                         updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
       continue;
     }
     const double density = body.mass / body.moments.area;
@@ -150,11 +149,14 @@ Matrix2 spin_rate(const BodyMotion& motion) {
   return {motion.spin * spin.xx, motion.spin * spin.xy, motion.spin * spin.yx, motion.spin * spin.yy};
 }
 
-void move(double dt, Blocks& blocks, MotionState& motion) {
-  for (std::size_t p = 0; p < motion.patch_displacement.size(); ++p) {
-    motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
-    motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;
+void move(const Model& model, double dt, Blocks& blocks, MotionState& motion) {
+  for (const Body& body : model.bodies) {
+    for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) {
+      motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
+      motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;
+    }
   }
+  motion.own_behind = dt;
   blocks.move(dt, motion);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/elements.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
@@ -33,17 +34,26 @@ struct VelocitiesAtStep {
 
 class Blocks;
 
+/// Own patches (see Partition) of a body, where a sweep over its elements has brought them to v₊ already.
+struct OwnPatches {
+  bool done = false;
+  kernels::VelocitySums sums{};
+};
+
 /// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. The forces on patches are used up.
-/// Velocities at t_n of bodies that move as a whole are kept only where they are `observed`.
+/// Velocities at t_n of bodies that move as a whole are kept only where they are `observed`. `updated`:
+/// [body] what is done already; empty: nothing.
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
-                            MotionState& motion, VelocitiesAtStep& at_step);
+                            MotionState& motion, VelocitiesAtStep& at_step,
+                            std::span<const OwnPatches> updated = {});
 
 /// Rate of H of a rigid body that spins.
 Matrix2 spin_rate(const BodyMotion& motion);
 
-/// d_{n+1} = d_n + Δt v₊ (Eq. 22).
-void move(double dt, Blocks& blocks, MotionState& motion);
+/// d_{n+1} = d_n + Δt v₊ (Eq. 22). Own patches of bodies of many elements follow when their elements are
+/// swept (MotionState::own_behind).
+void move(const Model& model, double dt, Blocks& blocks, MotionState& motion);
 
 /// Kinetic energy of a body with velocities p before and q after, ½ pᵀ M q, J/m.
 double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q);

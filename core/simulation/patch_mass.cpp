@@ -29,6 +29,8 @@ std::vector<SteadyPatch> heavier_patches(const Model& model, const Body& body) {
 }  // namespace
 
 PatchMass::PatchMass(const Model& model) : core_inverse_(model.bodies.size()) {
+  inverse_.reserve(model.patch_mass.size());
+  for (const double mass : model.patch_mass) inverse_.push_back(mass > 0 ? 1 / mass : 0);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const std::vector<SteadyPatch> heavier = heavier_patches(model, body);
@@ -57,7 +59,8 @@ PatchMass::PatchMass(const Model& model) : core_inverse_(model.bodies.size()) {
   }
 }
 
-void PatchMass::accelerations(const Model& model, std::uint32_t index, std::vector<Vec2>& patches) const {
+void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint32_t first,
+                              std::vector<Vec2>& patches) const {
   const Body& body = model.bodies[index];
   for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
@@ -67,11 +70,9 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::vect
       patches[steady.to.patch[i]].y += steady.to.weight[i] * patches[steady.patch].y;
     }
   }
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
-    const double mass = model.patch_mass[p];
-    if (!(mass > 0)) continue;
-    patches[p].x /= mass;
-    patches[p].y /= mass;
+  for (std::uint32_t p = first; p < body.patch_end; ++p) {
+    patches[p].x *= inverse_[p];
+    patches[p].y *= inverse_[p];
   }
   const std::vector<double>& core = core_inverse_[index];
   if (!core.empty()) {
@@ -90,8 +91,8 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::vect
       }
       const SteadyPatch& steady = *heavier[i];
       const auto give = [&](std::uint32_t patch, double factor) {
-        patches[patch].x -= factor * pull.x / model.patch_mass[patch];
-        patches[patch].y -= factor * pull.y / model.patch_mass[patch];
+        patches[patch].x -= factor * pull.x * inverse_[patch];
+        patches[patch].y -= factor * pull.y * inverse_[patch];
       };
       give(steady.patch, 1);
       for (std::size_t k = 0; k < 3; ++k) give(steady.to.patch[k], -steady.to.weight[k]);
@@ -114,19 +115,19 @@ void PatchMass::tie(const Model& model, std::uint32_t index, std::vector<Vec2>& 
   }
 }
 
-double PatchMass::product(const Model& model, std::uint32_t index, std::span<const Vec2> p,
-                          std::span<const Vec2> q) const {
+double PatchMass::product(const Model& model, std::uint32_t index, std::uint32_t first,
+                          std::span<const Vec2> p, std::span<const Vec2> q) const {
   const Body& body = model.bodies[index];
   double sum = 0;
-  for (std::uint32_t i = body.patch_begin; i < body.patch_end; ++i) {
-    const Vec2 a = p[i - body.patch_begin], b = q[i - body.patch_begin];
+  for (std::uint32_t i = first; i < body.patch_end; ++i) {
+    const Vec2 a = p[i - first], b = q[i - first];
     sum += model.patch_mass[i] * (a.x * b.x + a.y * b.y);
   }
   if (core_inverse_[index].empty()) return sum;
   for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (!std::isfinite(steady.inertia)) continue;
-    const Vec2 a = deviation(steady, p, body.patch_begin), b = deviation(steady, q, body.patch_begin);
+    const Vec2 a = deviation(steady, p, first), b = deviation(steady, q, first);
     sum += steady.inertia * (a.x * b.x + a.y * b.y);
   }
   return sum;

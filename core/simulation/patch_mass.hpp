@@ -16,19 +16,30 @@ class PatchMass {
  public:
   explicit PatchMass(const Model& model);
 
-  /// Turns the forces on the patches of a body into accelerations, in place. `patches` are those of all
-  /// bodies.
-  void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
+  /// Turns the forces on the patches of a body, from `first` on, into accelerations, in place. `patches` are
+  /// those of all bodies; what has to do with slivers is among the common ones.
+  void accelerations(const Model& model, std::uint32_t body, std::uint32_t first,
+                     std::vector<Vec2>& patches) const;
+  void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const {
+    accelerations(model, body, model.bodies[body].patch_begin, patches);
+  }
 
   /// Tied patches take over the values of those they follow.
   void tie(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
 
   /// pᵀ M q of two velocity fields on the patches of a body, J/m twice over. They hold that body's patches
-  /// alone.
-  double product(const Model& model, std::uint32_t body, std::span<const Vec2> p,
+  /// alone, from `first` on.
+  double product(const Model& model, std::uint32_t body, std::uint32_t first, std::span<const Vec2> p,
                  std::span<const Vec2> q) const;
+  double product(const Model& model, std::uint32_t body, std::span<const Vec2> p,
+                 std::span<const Vec2> q) const {
+    return product(model, body, model.bodies[body].patch_begin, p, q);
+  }
+
+  const std::vector<double>& inverse() const { return inverse_; }
 
  private:
+  std::vector<double> inverse_;                    ///< [patch] 1/m; 0 where there is none
   std::vector<std::vector<double>> core_inverse_;  ///< [body] (I⁻¹ + RᵀD⁻¹R)⁻¹, row by row; empty for most
 };
 

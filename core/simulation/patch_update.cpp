@@ -41,35 +41,52 @@ void impose_supports(const Model& model, const PatchMass& mass, std::uint32_t in
 }
 
 /// K_n as for bodies that move as a whole: with steps of unequal length, by the velocity mirrored about t_n.
-double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t body,
+double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t body, std::uint32_t first,
                        const StepConditions& conditions, std::span<const Vec2> before,
                        std::span<const Vec2> at_step, std::span<const Vec2> after) {
-  if (conditions.dt_behind == conditions.dt_ahead) return mass.product(model, body, before, after) / 2;
+  if (conditions.dt_behind == conditions.dt_ahead) return mass.product(model, body, first, before, after) / 2;
   const std::span<const Vec2> side = conditions.dt_behind > 0 ? before : after;
   std::vector<Vec2> mirrored;
   for (std::size_t i = 0; i < side.size(); ++i)
     mirrored.push_back({2 * at_step[i].x - side[i].x, 2 * at_step[i].y - side[i].y});
-  return mass.product(model, body, side, mirrored) / 2;
+  return mass.product(model, body, first, side, mirrored) / 2;
+}
+
+/// The same of own patches, from the products of v₋ and v₊: v = v₋ + s (v₊ − v₋) is mirrored to (1 − 2s) v₋ +
+/// 2s v₊, at the start (s = 0) to 2 v₋ − v₊.
+double kinetic_at_step(const kernels::VelocitySums& sums, const StepConditions& conditions) {
+  if (conditions.dt_behind == conditions.dt_ahead) return sums.across / 2;
+  const double share = share_of_after(conditions);
+  if (conditions.dt_behind > 0) return ((1 - 2 * share) * sums.before + 2 * share * sums.across) / 2;
+  return (2 * sums.across - sums.after) / 2;
+}
+
+/// v·M v at t_n of own patches.
+double product_at_step(const kernels::VelocitySums& sums, const StepConditions& conditions) {
+  const double share = share_of_after(conditions), rest = 1 - share;
+  return rest * rest * sums.before + 2 * share * rest * sums.across + share * share * sums.after;
 }
 
 }  // namespace
 
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
                         const Support& support, const StepConditions& conditions, const Update& update,
-                        MotionState& motion, VelocitiesAtStep& at_step, AccelerationWork& work) {
+                        const OwnPatches& own, MotionState& motion, VelocitiesAtStep& at_step,
+                        AccelerationWork& work) {
   const Body& body = model.bodies[index];
-  const std::size_t count = body.patch_end - body.patch_begin;
-  const std::span<Vec2> after(motion.patch_velocity.data() + body.patch_begin, count);
-  const std::span<Vec2> middle(at_step.patches.data() + body.patch_begin, count);
+  const std::uint32_t first = own.done ? body.own_end : body.patch_begin;
+  const std::size_t count = body.patch_end - first;
+  const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
+  const std::span<Vec2> middle(at_step.patches.data() + first, count);
   const std::vector<Vec2> before(after.begin(), after.end());
 
-  mass.accelerations(model, index, motion.patch_force);
-  Vec2 momentum;
+  mass.accelerations(model, index, first, motion.patch_force);
+  Vec2 momentum{own.sums.momentum[0], own.sums.momentum[1]};
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 acceleration = along(motion.patch_force[body.patch_begin + i], 1, conditions.gravity);
+    const Vec2 acceleration = along(motion.patch_force[first + i], 1, conditions.gravity);
     after[i] = {update.keep * after[i].x + update.gain * acceleration.x,
                 update.keep * after[i].y + update.gain * acceleration.y};
-    momentum = along(momentum, model.patch_mass[body.patch_begin + i], before[i]);
+    momentum = along(momentum, model.patch_mass[first + i], before[i]);
   }
   impose_supports(model, mass, index, support, conditions, update, motion, before, after, work);
   const double share = share_of_after(conditions);
@@ -77,10 +94,12 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
     middle[i] = {before[i].x + share * (after[i].x - before[i].x),
                  before[i].y + share * (after[i].y - before[i].y)};
 
-  work.kinetic += kinetic_at_step(model, mass, index, conditions, before, middle, after);
+  work.kinetic += kinetic_at_step(model, mass, index, first, conditions, before, middle, after) +
+                  kinetic_at_step(own.sums, conditions);
   work.external_work += gravity_work(conditions, momentum);
   if (conditions.damping > 0) {
-    const double power = conditions.damping * mass.product(model, index, middle, middle);
+    const double power = conditions.damping * (mass.product(model, index, first, middle, middle) +
+                                               product_at_step(own.sums, conditions));
     work.damping_loss += power * conditions.dt_behind / 2;
     work.damping_loss_ahead += power * conditions.dt_ahead / 2;
   }

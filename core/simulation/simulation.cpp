@@ -84,11 +84,11 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
   if (s.time >= end) return false;
   const double target = output_time(s.output + 1);
   while (s.time < target) {
+    s.watched = interrupted != nullptr && *interrupted;
     s.step(output_time(s.output + 2));
-    if (interrupted != nullptr && *interrupted) break;
+    if (s.watched) break;
   }
   if (s.time == target) ++s.output;
-  if (!s.observed) s.at_time.bodies = s.motion.bodies;  // interrupted between outputs
   s.bring_rotation_up_to_date();
   s.check_balance();
   return true;

@@ -31,7 +31,7 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
       blocks(model, scene.simd, workers),
       mass(model),
       contacts(scene, model, workers, settings.neighbour_skin, scene.simd),
-      deformation(scene, model),
+      deformation(scene, model, workers),
       loads(scene, stage, model),
       relaxation(model),
       critical(critical_step(scene, stage, model, contacts)),
@@ -48,13 +48,12 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
 void Simulation::State::step(double next_end) {
-  move(plan.dt, blocks, motion);  // Eq. 22
+  move(model, plan.dt, blocks, motion);  // Eq. 22
   dt_behind = plan.dt;
   ++plan.done;
   ++(settling ? summary.settle_steps : summary.steps);
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
   begin_due_stages();
-  observed = plan.done == plan.steps;
   if (plan.done == plan.steps) {
     make_plan(plan.end < plan.target ? plan.target : next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
@@ -71,7 +70,6 @@ void Simulation::State::step(double next_end) {
 
 void Simulation::State::begin(double end) {
   dt_behind = 0;
-  observed = true;
   speeds = blocks.follow(model, motion);  // the first step is bounded by them, too
   make_plan(end);
   forces();
@@ -80,24 +78,27 @@ void Simulation::State::begin(double end) {
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
-  for (BodyForce& force : motion.forces) force = {};
-  for (Vec2& force : motion.patch_force) force = {};
+  observed = watched || plan.done == 0;
+  motion.clear_forces(model);
   speeds = blocks.follow(model, motion);                           // Eq. 11
   contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
   const double interface_work = evaluate_contacts();               // Eqs. 28–48
-  strain_energy = deformation.apply(model, motion, dt_behind);     // Eq. 18
   loads.apply(motion, settling ? 0 : time, dt_behind);             // Eqs. 19–20
   const Vec2 pull = gravity();
+  const Damping& how = settling ? scene.settle->damping : stage.damping;
+  const bool at_once = !forces_first(how);
+  if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
     unbalanced_share =
         relaxation.unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
   }
-  const Damping& how = settling ? scene.settle->damping : stage.damping;
   const double damping = relaxation.damping(how, model, motion, dt_behind);
-  const AccelerationWork work =
-      accelerate(model, mass, stage.supports,
-                 {pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling}, observed,
-                 blocks, motion, at_time);  // Eqs. 23–24
+  const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
+  if (at_once)
+    strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
+                                                 at_time);  // Eqs. 18, 23–24
+  const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
+                                           at_time, deformation.updated());  // Eqs. 23–24
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
@@ -105,6 +106,11 @@ void Simulation::State::forces() {
     ledger.lose_kinetic();
   }
   fresh = false;
+}
+
+/// Whether all forces have to be known before any patch can go on.
+bool Simulation::State::forces_first(const Damping& how) const {
+  return how.kind == Damping::Kind::adaptive || (settling && scene.settle->until);
 }
 
 /// Returns the work of a stage that changes the parameters of closed contacts: what they hold and have just

@@ -37,8 +37,9 @@ struct Simulation::State {
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
   bool settling = false;
   bool fresh = true;         ///< no contact has been evaluated yet
-  bool observed = true;      ///< somebody will look at t_n: it ends a plan
+  bool observed = true;      ///< somebody may look at t_n
   bool started = false;      ///< t = 0 has been reached
+  bool watched = false;      ///< the coming step is the last before the state is looked at
   std::uint64_t output = 0;  ///< number of the output time reached last
 
   /// Equal steps to a time that is hit exactly.
@@ -74,6 +75,7 @@ struct Simulation::State {
   double allowed_dt() const;
 
   void forces();
+  bool forces_first(const Damping& how) const;
   void begin_due_stages();
   Vec2 gravity() const;
   bool settled() const;

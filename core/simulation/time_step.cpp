@@ -181,7 +181,7 @@ CriticalStep critical_step(const Scene& scene, const StageSettings& settings, co
                            const ContactStage& contacts) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep smallest{none, none, "nothing vibrates"};
-  const Crowd crowd(model, contacts.interfaces().surface_count);
+  const Crowd crowd(model, scene.surfaces.size());
   std::vector<std::uint32_t> voted;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;

@@ -11,6 +11,12 @@ struct Update {
   double keep, gain;
 };
 
+inline Update update_of(const StepConditions& conditions) {
+  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
+  const double half_damping = conditions.damping * dt / 2;
+  return {(1 - half_damping) / (1 + half_damping), dt / (1 + half_damping)};
+}
+
 /// Books the work of the reaction that makes the velocity of one motion, of generalised mass `mass`, what a
 /// support wants; returns that velocity.
 inline double impose(const std::optional<double>& wanted, double mass, double value, double value_before,
@@ -35,7 +41,7 @@ inline double share_of_after(const StepConditions& conditions) {
 
 /// The patches of a body of many elements.
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
-                        const StepConditions& conditions, const Update& update, MotionState& motion,
-                        VelocitiesAtStep& at_step, AccelerationWork& work);
+                        const StepConditions& conditions, const Update& update, const OwnPatches& updated,
+                        MotionState& motion, VelocitiesAtStep& at_step, AccelerationWork& work);
 
 }  // namespace talus

@@ -30,26 +30,31 @@ class Hypoelastic final : public Material {
 
   void evaluate(const MaterialBatch& batch, const MaterialResponse& response) const noexcept override {
     const double viscosity = batch.dt > 0 ? damping_time_ / batch.dt : 0;
-    for (std::uint32_t i = 0; i < batch.count; ++i) {
-      const TwoPointTensor before = tensor_at(batch.previous_deformation, i);
-      const TwoPointTensor now = tensor_at(batch.deformation, i);
-      const double* old = batch.state + std::size_t{4} * i;
+    const PlaneModuli moduli = moduli_;
+    const MaterialBatch in = batch;
+    const MaterialResponse out = response;
+    // No branch within, and the arrays are apart: the loop becomes one over vectors.
+#pragma GCC ivdep
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const TwoPointTensor before = tensor_at(in.previous_deformation, i);
+      const TwoPointTensor now = tensor_at(in.deformation, i);
+      const double* old = in.state + std::size_t{4} * i;
       const PlaneTensor stress_before{old[0], old[1], old[2]};
 
       const MidpointStep step = midpoint_step(before, now);
-      const PlaneTensor change = moduli_ * step.strain;
+      const PlaneTensor change = moduli * step.strain;
       const PlaneTensor stress = rotated(step.rotation, stress_before) + change;
       const PlaneTensor viscous = viscosity * change;
       const double work = old[3] + stress_work(stress_before, before, stress, now);
 
       const TwoPointTensor p = first_piola(stress + viscous, now);
-      response.stress[0][i] = p.xx;
-      response.stress[1][i] = p.xy;
-      response.stress[2][i] = p.yx;
-      response.stress[3][i] = p.yy;
-      response.energy[i] = work;
-      response.dissipated[i] = determinant(now) * contraction(viscous, step.strain);
-      double* state = response.state + std::size_t{4} * i;
+      out.stress[0][i] = p.xx;
+      out.stress[1][i] = p.xy;
+      out.stress[2][i] = p.yx;
+      out.stress[3][i] = p.yy;
+      out.energy[i] = work;
+      out.dissipated[i] = determinant(now) * contraction(viscous, step.strain);
+      double* state = out.state + std::size_t{4} * i;
       state[0] = stress.xx;
       state[1] = stress.yy;
       state[2] = stress.xy;
@@ -57,9 +62,13 @@ class Hypoelastic final : public Material {
     }
   }
 
-  void stiffest_tangent(double tangent[9]) const noexcept override { write_tangent(moduli_, tangent); }
+  void stiffest_tangent(double tangent[9]) const noexcept override {
+    write_tangent(moduli_, tangent);
+  }
 
-  double viscous_time() const noexcept override { return damping_time_; }
+  double viscous_time() const noexcept override {
+    return damping_time_;
+  }
 
  private:
   PlaneModuli moduli_;

@@ -1,5 +1,6 @@
 #include "figures/runs.hpp"
 #include "output/scratch.hpp"
+#include "parallel/alone.hpp"
 #include "simulation/deformation.hpp"
 
 #include <catch2/catch.hpp>
@@ -115,7 +116,7 @@ PatchTest patch_test(const Scene& scene) {
   const Matrix2 h{2e-2, -1.3e-2, -1.3e-2, -0.7e-2};
   const Model model = build_model(scene);
   MotionState motion(model);
-  Deformation deformation(scene, model);
+  Deformation deformation(scene, model, alone());
   impose(model, h, motion);
   deformation.apply(model, motion, 0);
 
@@ -239,7 +240,7 @@ TEST_CASE("100 rigid turns leave no strain", "[figures][continuum]") {
     const Scene scene = one_body(frame_with_hole, lattice(0.35, 0.1, 0.05, 13, "merge"), law);
     const Model model = build_model(scene);
     MotionState motion(model);
-    Deformation deformation(scene, model);
+    Deformation deformation(scene, model, alone());
     double largest = 0;
     for (int i = 0; i <= turns * steps; ++i) {
       const double angle = 2 * pi * (i % steps) / steps;

@@ -7,7 +7,7 @@ namespace talus {
 /// Deformation of a range of elements at t_n. Component order xx, xy, yx, yy; arrays of length `count`.
 struct MaterialBatch {
   const double* deformation[4];           ///< F = I + ∂u/∂X at t_n
-  const double* previous_deformation[4];  ///< F at t_{n-1}
+  const double* previous_deformation[4];  ///< F at t_{n-1}; anything where the material does not need it
   const double* state;                    ///< [element * doubles_per_element] as left at t_{n-1}
   double dt;                              ///< s
   std::uint32_t count;
@@ -35,6 +35,10 @@ class Material {
   /// Viscous stress over elastic stress at a strain rate of 1 per second, the largest, s: stiffness-
   /// proportional damping. For the time step.
   virtual double viscous_time() const noexcept { return 0; }
+
+  /// Whether evaluate() reads previous_deformation. A material that says no spares the host to keep it for
+  /// every element.
+  virtual bool needs_previous_deformation() const noexcept { return true; }
 };
 
 }  // namespace talus

@@ -1,0 +1,70 @@
+#pragma once
+
+// The loops over elements and patches of bodies of many elements, over plain arrays, so that they can be
+// compiled for several instruction sets. Every sum runs in an order that the widths of vectors do not change:
+// sums over elements go to eight lanes that are added at the end. Patch vectors (displacement, velocity) are
+// stored x, y, x, y, ...; within a subdomain x and y are apart.
+
+#include <cstdint>
+
+namespace talus::kernels {
+
+/// The lanes of a sum: element i goes to lane i mod 8.
+inline constexpr std::uint32_t lanes = 8;
+
+/// Triangles of any shape: the numbers of their corners, ∇w of the second and third, area; [triangle].
+struct Triangles {
+  const std::uint32_t* corner[3];
+  const double* gradient[4];  ///< second x, y, third x, y, 1/m
+  const double* area;         ///< m²
+};
+
+/// v₊ = keep v₋ + gain (f/m + g), and what the energies of the step need.
+struct VelocityUpdate {
+  double keep, gain;
+  double gravity[2];  ///< m/s²
+  bool all_sums;      ///< else only that across
+};
+
+/// Σ m v₋·v₊, Σ m v₋·v₋, Σ m v₊·v₊, J/m twice over, and Σ m v₋.
+struct VelocitySums {
+  double across, before, after;
+  double momentum[2];
+};
+
+struct ElementKernels {
+  /// d += dt v of `count` patches, then x and y of d.
+  void (*move)(std::uint32_t count, double dt, double* d, const double* v, double* x, double* y);
+
+  /// F = I + Σ d_i ⊗ ∇w_i of the lower and upper triangles of `cells` cells side by side. Cell c has the
+  /// corners c, c + 1 of the bottom row and of the top row; its lower triangle has the corners bottom c,
+  /// bottom c + 1, top c, its upper one the other corner of each. `gradient` are ∇w of the second and third
+  /// corner of a lower triangle, 1/m; those of upper ones are opposite. F [component xx, xy, yx, yy]: lower
+  /// triangles, then upper ones.
+  void (*lattice_gradient)(std::uint32_t cells, const double gradient[4], const double* bottom_x,
+                           const double* bottom_y, const double* top_x, const double* top_y,
+                           double* const f[4]);
+
+  /// Takes A P ∇w off the forces on both rows (Eq. 18). `spare`: 8 (cells + 1) doubles.
+  void (*lattice_force)(std::uint32_t cells, const double gradient[4], double area, const double* const p[4],
+                        double* bottom_x, double* bottom_y, double* top_x, double* top_y, double* spare);
+
+  void (*triangle_gradient)(std::uint32_t count, const Triangles& triangles, const double* x, const double* y,
+                            double* const f[4]);
+
+  /// `spare`: 4 count doubles.
+  void (*triangle_force)(std::uint32_t count, const Triangles& triangles, const double* const p[4],
+                         double* fx, double* fy, double* spare);
+
+  /// Σ value, and Σ weight value.
+  double (*sum)(std::uint32_t count, const double* value);
+  double (*weighted_sum)(std::uint32_t count, const double* weight, const double* value);
+
+  /// `mass`, `inverse_mass`: [patch], or of all patches where `same_mass`. `middle`, unless null, takes v₋ +
+  /// share (v₊ − v₋). `spare`: 4 count doubles. Adds to `sums`.
+  void (*accelerate)(std::uint32_t count, const VelocityUpdate& update, bool same_mass, const double* mass,
+                     const double* inverse_mass, const double* fx, const double* fy, double* v,
+                     double* middle, double share, double* spare, VelocitySums& sums);
+};
+
+}  // namespace talus::kernels

@@ -1,0 +1,100 @@
+#include "simulation/material_batches.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace talus {
+
+MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
+  const std::size_t count = model.elements.size();
+  for (int k = 0; k < 4; ++k) {
+    deformation_[k].assign(count, k == 0 || k == 3 ? 1.0 : 0.0);
+    stress_[k].assign(count, 0.0);
+  }
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const std::uint32_t begin = model.material_element_start[m], end = model.material_element_start[m + 1];
+    if (begin == end) continue;
+    const Choice& choice = scene.materials[m].model;
+    auto material = make<Material>(*choice.component, choice.values);
+    const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
+    const bool needs_previous = material->needs_previous_deformation();
+    batches_.push_back({std::move(material), begin, end, needs_previous, std::vector<double>(states)});
+  }
+}
+
+std::uint32_t MaterialBatches::batch_of(std::uint32_t element) const {
+  std::uint32_t batch = 0;
+  while (element >= batches_[batch].end) ++batch;
+  return batch;
+}
+
+void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::uint32_t count, double dt,
+                               bool keep, ElementBuffer& buffer) {
+  Batch& batch = batches_[index];
+  const std::size_t doubles = batch.material->doubles_per_element();
+  double* state = batch.state.data() + doubles * (element - batch.begin);
+  if (buffer.state.size() < doubles * ElementBuffer::most) buffer.state.resize(doubles * ElementBuffer::most);
+#ifdef TALUS_AUDIT
+  for (auto& component : buffer.stress)
+    std::fill(component, component + count, std::numeric_limits<double>::quiet_NaN());
+#endif
+  MaterialBatch input{};
+  MaterialResponse output{};
+  for (int k = 0; k < 4; ++k) {
+    input.deformation[k] = buffer.deformation[k];
+    input.previous_deformation[k] =
+        batch.needs_previous ? deformation_[k].data() + element : buffer.deformation[k];
+    output.stress[k] = buffer.stress[k];
+  }
+  input.state = state;
+  input.dt = dt;
+  input.count = count;
+  output.energy = buffer.energy;
+  output.dissipated = buffer.dissipated;
+  output.state = buffer.state.data();
+  batch.material->evaluate(input, output);
+  std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
+  for (int k = 0; k < 4; ++k) {
+    if (keep || batch.needs_previous)
+      std::copy(buffer.deformation[k], buffer.deformation[k] + count, deformation_[k].data() + element);
+    if (keep) std::copy(buffer.stress[k], buffer.stress[k] + count, stress_[k].data() + element);
+  }
+}
+
+/// σ = P Fᵀ / det F.
+std::array<double, 3> MaterialBatches::cauchy(std::size_t e) const {
+  const double fxx = deformation_[0][e], fxy = deformation_[1][e], fyx = deformation_[2][e],
+               fyy = deformation_[3][e];
+  const double pxx = stress_[0][e], pxy = stress_[1][e], pyx = stress_[2][e], pyy = stress_[3][e];
+  const double volume = fxx * fyy - fxy * fyx;
+  const double xy = (pxx * fyx + pxy * fyy + pyx * fxx + pyy * fxy) / 2;
+  return {(pxx * fxx + pxy * fxy) / volume, (pyx * fyx + pyy * fyy) / volume, xy / volume};
+}
+
+std::vector<double> MaterialBatches::memory() const {
+  std::vector<double> all;
+  for (const Batch& batch : batches_) {
+    for (const std::vector<double>& component : deformation_) {
+      if (batch.needs_previous)
+        all.insert(all.end(), component.begin() + batch.begin, component.begin() + batch.end);
+    }
+    all.insert(all.end(), batch.state.begin(), batch.state.end());
+  }
+  return all;
+}
+
+void MaterialBatches::set_memory(const std::vector<double>& memory) {
+  const double* from = memory.data();
+  const auto take = [&](double* to, std::size_t count) {
+    std::copy(from, from + count, to);
+    from += count;
+  };
+  for (Batch& batch : batches_) {
+    for (std::vector<double>& component : deformation_) {
+      if (batch.needs_previous) take(component.data() + batch.begin, batch.end - batch.begin);
+    }
+    take(batch.state.data(), batch.state.size());
+  }
+}
+
+}  // namespace talus

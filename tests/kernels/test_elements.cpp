@@ -1,0 +1,191 @@
+#include "kernels/level.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace talus::kernels;
+using talus::best_simd_level;
+using talus::SimdLevel;
+
+namespace {
+
+/// Those that this machine has.
+std::vector<SimdLevel> levels() {
+  std::vector<SimdLevel> all;
+  for (int i = 0; i <= static_cast<int>(best_simd_level()); ++i) all.push_back(static_cast<SimdLevel>(i));
+  return all;
+}
+
+struct Random {
+  std::mt19937 source{11};
+  double operator()() { return static_cast<double>(source()) / 2147483648.0 - 1; }
+  std::vector<double> numbers(std::size_t count, double shift = 0) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back((*this)() + shift);
+    return result;
+  }
+};
+
+/// Four arrays, xx, xy, yx, yy.
+struct Tensors {
+  std::vector<double> component[4];
+  std::array<double*, 4> rows{};
+
+  explicit Tensors(std::size_t count, Random* random = nullptr) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      component[k] = random != nullptr ? random->numbers(count) : std::vector<double>(count);
+      rows[k] = component[k].data();
+    }
+  }
+};
+
+/// The cells of a lattice as triangles with numbers: bottom row 0, 1, ..., then the top row.
+struct CellsAsTriangles {
+  std::vector<std::uint32_t> corner[3];
+  std::vector<double> gradient[4], area;
+
+  CellsAsTriangles(std::uint32_t cells, const std::array<double, 4>& g, double each) {
+    const std::uint32_t top = cells + 1;
+    for (std::uint32_t c = 0; c < cells; ++c) add({c, c + 1, top + c}, g, 1, each);
+    for (std::uint32_t c = 0; c < cells; ++c) add({top + c + 1, top + c, c + 1}, g, -1, each);
+  }
+  void add(const std::array<std::uint32_t, 3>& corners, const std::array<double, 4>& g, double sign,
+           double each) {
+    for (std::size_t k = 0; k < 3; ++k) corner[k].push_back(corners[k]);
+    for (std::size_t k = 0; k < 4; ++k) gradient[k].push_back(sign * g[k]);
+    area.push_back(each);
+  }
+  Triangles arrays() const {
+    return {{corner[0].data(), corner[1].data(), corner[2].data()},
+            {gradient[0].data(), gradient[1].data(), gradient[2].data(), gradient[3].data()},
+            area.data()};
+  }
+};
+
+const std::array<double, 4> gradient{2.5, -1.25, 0.5, 3};
+
+}  // namespace
+
+TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t cells : {1u, 7u, 8u, 21u, 128u}) {
+    const std::uint32_t row = cells + 1;
+    const std::vector<double> x = random.numbers(2 * row), y = random.numbers(2 * row);
+    Tensors as_cells(2 * cells), as_triangles(2 * cells);
+    loops.lattice_gradient(cells, gradient.data(), x.data(), y.data(), x.data() + row, y.data() + row,
+                           as_cells.rows.data());
+    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, gradient, 1).arrays(), x.data(), y.data(),
+                            as_triangles.rows.data());
+    double largest = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t e = 0; e < 2 * cells; ++e)
+        largest = std::max(largest, std::abs(as_cells.component[k][e] - as_triangles.component[k][e]));
+    }
+    CHECK(largest <= 1e-15 * 20);
+  }
+}
+
+TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t cells : {1u, 7u, 8u, 21u, 128u}) {
+    const std::uint32_t row = cells + 1;
+    const Tensors stress(2 * cells, &random);
+    const std::vector<double> before_x = random.numbers(2 * row), before_y = random.numbers(2 * row);
+    std::vector<double> x = before_x, y = before_y, fx = before_x, fy = before_y, spare(16 * row);
+    loops.lattice_force(cells, gradient.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
+                        y.data() + row, spare.data());
+    loops.triangle_force(2 * cells, CellsAsTriangles(cells, gradient, 0.75).arrays(), stress.rows.data(),
+                         fx.data(), fy.data(), spare.data());
+    double largest = 0, sum_x = 0, moved = 0;
+    for (std::size_t i = 0; i < 2 * row; ++i) {
+      largest = std::max({largest, std::abs(x[i] - fx[i]), std::abs(y[i] - fy[i])});
+      sum_x += x[i] - before_x[i];
+      moved = std::max(moved, std::abs(x[i] - before_x[i]));
+    }
+    CHECK(largest <= 1e-15 * 30);
+    CHECK(std::abs(sum_x) <= 1e-14 * row);  // elements push nothing but each other
+    CHECK(moved > 0.1);
+  }
+}
+
+TEST_CASE("sums go to eight lanes, whatever the number of values", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t count : {0u, 1u, 5u, 8u, 9u, 16u, 255u}) {
+    const std::vector<double> value = random.numbers(count), weight = random.numbers(count);
+    double plain[8] = {}, weighted[8] = {};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      plain[i % 8] += value[i];
+      weighted[i % 8] += weight[i] * value[i];
+    }
+    const auto total = [](const double* l) {
+      return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+    };
+    CHECK(loops.sum(count, value.data()) == total(plain));
+    CHECK(loops.weighted_sum(count, weight.data(), value.data()) == total(weighted));
+  }
+}
+
+TEST_CASE("patches take their accelerations, and the products of their velocities are right", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t count : {1u, 3u, 4u, 9u, 130u}) {
+    for (const bool same : {true, false}) {
+      std::vector<double> mass = random.numbers(count, 3), inverse;
+      if (same) std::fill(mass.begin(), mass.end(), mass[0]);
+      for (const double m : mass) inverse.push_back(1 / m);
+      const std::vector<double> fx = random.numbers(count), fy = random.numbers(count);
+      const std::vector<double> before = random.numbers(2 * count);
+      std::vector<double> v = before, middle(2 * count), spare(4 * count);
+      VelocitySums sums{};
+      const VelocityUpdate update{0.75, 0.5, {0.25, -9.81}, true};
+      loops.accelerate(count, update, same, mass.data(), inverse.data(), fx.data(), fy.data(), v.data(),
+                       middle.data(), 0.25, spare.data(), sums);
+      double across = 0, old = 0, after = 0, momentum[2] = {};
+      for (std::uint32_t i = 0; i < 2 * count; ++i) {
+        const double force = i % 2 == 0 ? fx[i / 2] : fy[i / 2], m = mass[i / 2];
+        const double next = 0.75 * before[i] + 0.5 * (force * inverse[i / 2] + update.gravity[i % 2]);
+        CHECK(v[i] == next);
+        CHECK(middle[i] == before[i] + 0.25 * (next - before[i]));
+        across += m * before[i] * next;
+        old += m * before[i] * before[i];
+        after += m * next * next;
+        momentum[i % 2] += m * before[i];
+      }
+      const double scale = std::sqrt(old * after);
+      CHECK(std::abs(sums.across - across) <= 1e-14 * scale);
+      CHECK(std::abs(sums.before - old) <= 1e-14 * old);
+      CHECK(std::abs(sums.after - after) <= 1e-14 * after);
+      CHECK(std::abs(sums.momentum[0] - momentum[0]) <= 1e-14 * 4 * count);
+      CHECK(std::abs(sums.momentum[1] - momentum[1]) <= 1e-14 * 4 * count);
+
+      VelocitySums one{};
+      std::vector<double> again = before;
+      loops.accelerate(count, {0.75, 0.5, {0.25, -9.81}, false}, same, mass.data(), inverse.data(), fx.data(),
+                       fy.data(), again.data(), nullptr, 0.25, spare.data(), one);
+      CHECK(again == v);
+      CHECK(one.across == sums.across);
+      CHECK(one.before == 0);
+    }
+  }
+}
+
+TEST_CASE("patches move and lie down by components", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  const std::vector<double> before = random.numbers(22), v = random.numbers(22);
+  std::vector<double> d = before, x(11), y(11);
+  loops.move(11, 0.5, d.data(), v.data(), x.data(), y.data());
+  for (std::size_t i = 0; i < 11; ++i) {
+    CHECK(d[2 * i] == before[2 * i] + 0.5 * v[2 * i]);
+    CHECK(x[i] == d[2 * i]);
+    CHECK(y[i] == d[2 * i + 1]);
+  }
+}

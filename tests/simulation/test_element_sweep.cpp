@@ -1,0 +1,208 @@
+#include "figures/rectangle_mesh.hpp"
+#include "figures/runs.hpp"
+#include "output/scratch.hpp"
+#include "parallel/alone.hpp"
+#include "simulation/deformation.hpp"
+#include "simulation/patch_mass.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace talus;
+
+namespace {
+
+/// A lattice of several subdomains with cut cells, a crack and slivers; the mesh of `file` otherwise.
+Scene scene_of(const std::string& cover, const std::string& material, const std::string& shape) {
+  WorkingScene text;
+  text.material = fmt::format(
+      R"("density": 2300, "model": "{}", "young_modulus": 1e10, "poisson_ratio": 0.25, "damping_time": {})",
+      material, material == "linear_elastic" ? "0" : "1e-6");
+  text.bodies = fmt::format(R"({{"name": "a", "material": "rock", {}, "cover": {}}})", shape, cover);
+  return text.read();
+}
+
+const char* const plate = R"("polygon": [[0, 0], [10, 0], [10, 4], [0, 5]],
+    "discontinuities": [{"points": [[2, 1], [5, 2.2]]}])";
+
+Scene lattice(const std::string& material, const std::string& slivers = "merge") {
+  return scene_of(
+      fmt::format(R"({{"model": "hexagonal", "size": 0.06, "angle": 11, "slivers": "{}"}})", slivers),
+      material, plate);
+}
+
+Scene mesh(const std::string& material) {
+  const Scratch scratch;
+  const std::string file =
+      scratch.write("plate.msh", figures::RectangleMesh{{0, 0}, {6, 3}, 80, 50}.text()).string();
+  return scene_of(R"({"model": "mesh"})", material, fmt::format(R"("mesh": "{}")", file));
+}
+
+/// Displacements and velocities of all patches, strains of about 1e-3 under a turn.
+void disturb(const Model& model, MotionState& motion) {
+  std::mt19937 source(5);
+  const auto random = [&] { return static_cast<double>(source()) / 2147483648.0 - 1; };
+  for (std::size_t p = 0; p < motion.patch_displacement.size(); ++p) {
+    const Vec2 at = model.patch_star[p];
+    motion.patch_displacement[p] = {-0.1 * at.y + 6e-5 * random(), 0.1 * at.x + 6e-5 * random()};
+    motion.patch_velocity[p] = {random(), random()};
+  }
+}
+
+double size_of(Vec2 p) {
+  return std::sqrt(p.x * p.x + p.y * p.y);
+}
+
+/// Element by element from Eq. 18 as it is written, with a material evaluated one by one.
+std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const MotionState& motion,
+                               double& stored) {
+  const Choice& choice = scene.materials[0].model;
+  const auto material = make<Material>(*choice.component, choice.values);
+  std::vector<Vec2> forces(motion.patch_force.size());
+  for (const Element& element : model.elements) {
+    const Matrix2 h = gradient(element, motion.patch_displacement);
+    const double f[4] = {1 + h.xx, h.xy, h.yx, 1 + h.yy}, before[4] = {1, 0, 0, 1};
+    double p[4], energy = 0, dissipated = 0;
+    std::vector<double> state(material->doubles_per_element()), next(state);
+    MaterialBatch batch{
+        {f, f + 1, f + 2, f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
+    material->evaluate(batch, {{p, p + 1, p + 2, p + 3}, &energy, &dissipated, next.data()});
+    stored += element.area * energy;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 g = element.gradient[i];
+      forces[element.patch[i]].x -= element.area * (p[0] * g.x + p[1] * g.y);
+      forces[element.patch[i]].y -= element.area * (p[2] * g.x + p[3] * g.y);
+    }
+  }
+  return forces;
+}
+
+std::vector<Scene> all_scenes() {
+  return {lattice("linear_elastic"), lattice("hypoelastic"), mesh("linear_elastic"), mesh("hypoelastic")};
+}
+
+bool same_bits(const std::vector<Vec2>& p, const std::vector<Vec2>& q) {
+  return p.size() == q.size() &&
+         std::equal(p.begin(), p.end(), q.begin(), [](Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; });
+}
+
+}  // namespace
+
+TEST_CASE("swept forces and energy are those of the elements one by one", "[continuum][sweep]") {
+  for (const Scene& scene : all_scenes()) {
+    const Model model = build_model(scene);
+    MotionState motion(model);
+    disturb(model, motion);
+    Deformation deformation(scene, model, alone());
+    double stored = 0;
+    const std::vector<Vec2> plain = plain_forces(scene, model, motion, stored);
+    motion.clear_forces(model);
+    const Deformation::Energy energy = deformation.apply(model, motion, 1e-6);
+    double largest = 0, error = 0;
+    for (std::size_t p = 0; p < plain.size(); ++p) {
+      largest = std::max(largest, size_of(plain[p]));
+      error = std::max(error,
+                       size_of({motion.patch_force[p].x - plain[p].x, motion.patch_force[p].y - plain[p].y}));
+    }
+    // Displacements of 0.5 m give strains rounding errors of 0.5 m × 2e-16 / 0.06 m, 1e-12 of their size.
+    CHECK(error <= 1e-11 * largest);
+    CHECK(energy.stored == Approx(stored).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "[continuum][sweep]") {
+  std::vector<Scene> scenes = all_scenes();
+  scenes.push_back(lattice("linear_elastic", "mass_scale"));
+  for (const Scene& scene : scenes) {
+    const Model model = build_model(scene);
+    const PatchMass mass(model);
+    const std::vector<Support> supports(1);
+    for (const double ahead : {1e-6, 1.5e-6}) {
+      const StepConditions conditions{{0, -9.81}, {0, -9.81}, 20, 1e-6, ahead, true};
+      MotionState one(model), two(model);
+      disturb(model, one);
+      disturb(model, two);
+      Deformation first(scene, model, alone()), second(scene, model, alone());
+      VelocitiesAtStep at_one{std::vector<BodyMotion>(1), std::vector<Vec2>(model.patch_star.size())};
+      VelocitiesAtStep at_two = at_one;
+      one.own_behind = two.own_behind = 1e-6;
+      one.clear_forces(model);
+      two.clear_forces(model);
+      const Deformation::Energy now =
+          first.apply_and_update(model, mass, supports, conditions, true, one, at_one);
+      REQUIRE(first.updated()[0].done);
+      const AccelerationWork work =
+          accelerate(model, mass, supports, conditions, one, at_one, first.updated());
+      const Deformation::Energy same = second.apply(model, two, 1e-6);
+      const AccelerationWork other = accelerate(model, mass, supports, conditions, two, at_two);
+
+      CHECK(same_bits(one.patch_velocity, two.patch_velocity));
+      CHECK(same_bits(one.patch_displacement, two.patch_displacement));
+      CHECK(same_bits(at_one.patches, at_two.patches));
+      CHECK(now.stored == same.stored);
+      CHECK(now.dissipated == same.dissipated);
+      CHECK(work.kinetic == Approx(other.kinetic).epsilon(1e-12));
+      CHECK(work.damping_loss == Approx(other.damping_loss).epsilon(1e-12));
+      CHECK(work.external_work ==
+            Approx(other.external_work).epsilon(1e-9).margin(1e-12 * std::abs(work.kinetic)));
+      for (std::size_t e = 0; e < model.elements.size(); e += 97)
+        CHECK(first.cauchy_of_element(e) == second.cauchy_of_element(e));
+    }
+  }
+}
+
+TEST_CASE("how subdomains are shared out cannot be seen in the bits", "[continuum][sweep]") {
+  for (const Scene& scene : {lattice("hypoelastic"), mesh("linear_elastic")}) {
+    const Model model = build_model(scene);
+    const Body& body = model.bodies[0];
+    const std::uint32_t begin = body.subdomain_begin, end = body.subdomain_end;
+    REQUIRE(end - begin >= 2);
+    const PatchMass mass(model);
+    struct Outcome {
+      std::vector<Vec2> velocity, force;
+      std::vector<double> sums;
+    };
+    const auto outcome = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges) {
+      MotionState motion(model);
+      disturb(model, motion);
+      motion.own_behind = 1e-6;
+      MaterialBatches materials(scene, model);
+      ElementSweep sweep(model, best_simd_level());
+      std::vector<Vec2> middle(model.patch_star.size());
+      const SweepStep step{1e-6, true,         true, {1, 1e-6, {0, -9.81}, true}, mass.inverse().data(),
+                           0.5,  middle.data()};
+      std::vector<SweepSums> sums(model.partition.subdomains.size());
+      for (const auto& [from, to] : ranges) {
+        ElementSweep::Workspace workspace = sweep.workspace();
+        sweep.run(model, body, from, to, step, materials, motion, workspace, sums);
+      }
+      const std::uint32_t common = body.patch_end - body.own_end;
+      sweep.gather(model, body, common / 2, common, motion);
+      sweep.gather(model, body, 0, common / 2, motion);
+      Outcome result{motion.patch_velocity, motion.patch_force, {}};
+      for (const SweepSums& sum : sums)
+        result.sums.insert(result.sums.end(), {sum.stored, sum.dissipated, sum.own.across, sum.own.before});
+      return result;
+    };
+    const Outcome whole = outcome({{begin, end}});
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> backwards;
+    for (std::uint32_t s = end; s-- > begin;) backwards.emplace_back(s, s + 1);
+    const Outcome single = outcome(backwards);
+    CHECK(same_bits(whole.velocity, single.velocity));
+    CHECK(same_bits(whole.force, single.force));
+    CHECK(whole.sums == single.sums);
+  }
+}
+
+TEST_CASE("a material that needs no former deformation is not asked with one", "[continuum][sweep]") {
+  const Scene elastic = lattice("linear_elastic"), rate = lattice("hypoelastic");
+  CHECK(Deformation(elastic, build_model(elastic), alone()).memory().empty());
+  const Model model = build_model(rate);
+  CHECK(Deformation(rate, model, alone()).memory().size() == (4 + 4) * model.elements.size());
+}
