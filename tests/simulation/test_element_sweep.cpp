@@ -2,6 +2,7 @@
 #include "figures/runs.hpp"
 #include "output/scratch.hpp"
 #include "parallel/alone.hpp"
+#include "simulation/blocks.hpp"
 #include "simulation/deformation.hpp"
 #include "simulation/patch_mass.hpp"
 #include "simulation/working_scene.hpp"
@@ -123,6 +124,7 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
     const Model model = build_model(scene);
     const PatchMass mass(model);
     const std::vector<Support> supports(1);
+    Blocks blocks(model, best_simd_level(), alone());
     for (const double ahead : {1e-6, 1.5e-6}) {
       const StepConditions conditions{{0, -9.81}, {0, -9.81}, 20, 1e-6, ahead, true};
       MotionState one(model), two(model);
@@ -138,9 +140,9 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
           first.apply_and_update(model, mass, supports, conditions, true, one, at_one);
       REQUIRE(first.updated()[0].done);
       const AccelerationWork work =
-          accelerate(model, mass, supports, conditions, one, at_one, first.updated());
+          accelerate(model, mass, supports, conditions, true, blocks, one, at_one, first.updated());
       const Deformation::Energy same = second.apply(model, two, 1e-6);
-      const AccelerationWork other = accelerate(model, mass, supports, conditions, two, at_two);
+      const AccelerationWork other = accelerate(model, mass, supports, conditions, true, blocks, two, at_two);
 
       CHECK(same_bits(one.patch_velocity, two.patch_velocity));
       CHECK(same_bits(one.patch_displacement, two.patch_displacement));
