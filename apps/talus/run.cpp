@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace talus {
 
 namespace {
@@ -29,6 +31,7 @@ Usage make_usage() {
       "overwrite", "replace results that the folder holds already")(
       "threads", po::value<int>()->value_name("N"), "threads to use (default: 1; same bits for any number)");
   add_scene_options(usage);
+  usage.options.add_options()("profile", "say at the end what each part of the steps took");
   usage.options.add_options()("quiet,q", "no progress and no summary")(
       "no-skin", "seek contact candidates anew at every step: slow, for checking; the bits stay the same");
   return usage;
@@ -47,6 +50,21 @@ void print_summary(const RunResult& result, const std::filesystem::path& folder)
   }
   fmt::print("largest energy residual {:.2g} % of the throughput\nstate {}\nresults in {}\n",
              100 * summary.largest_residual_share, result.state_hash, folder.string());
+}
+
+/// Time of each part of the steps, settling included.
+void print_profile(const RunSummary& summary, std::size_t blocks) {
+  double total = 0;
+  for (const double seconds : summary.profile.seconds()) total += seconds;
+  const double steps = static_cast<double>(summary.steps + summary.settle_steps);
+  fmt::print("{:<12}{:>12}{:>9}{:>22}\n", "part", "time [s]", "share", "per block-step [ns]");
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    const double seconds = summary.profile.seconds()[i];
+    fmt::print(
+        "{:<12}{:>12.4f}{:>8.1f}%{:>22.1f}\n", name_of(static_cast<Phase>(i)), seconds,
+        total > 0 ? 100 * seconds / total : 0.0,
+        1e9 * seconds / (std::max(steps, 1.0) * static_cast<double>(std::max<std::size_t>(blocks, 1))));
+  }
 }
 
 int code_of(const RunResult& result) {
@@ -73,6 +91,7 @@ int run_command(const Words& words) {
   RunOrder order;
   order.overrides = overrides_of(usage, *given);
   order.settings.threads = threads_of(usage, *given, 1);
+  order.settings.profile = given->count("profile") != 0;
   order.settings.neighbour_skin = given->count("no-skin") == 0;
   const std::string out = text_option(*given, "out");
   order.folder = out.empty() ? std::filesystem::path("out") / file.stem() : std::filesystem::path(out);
@@ -100,6 +119,7 @@ int run_command(const Words& words) {
                order.folder.string());
   }
   if (!quiet) print_summary(result, order.folder);
+  if (result.summary.profile.on()) print_profile(result.summary, result.blocks);
   return code_of(result);
 }
 

@@ -14,8 +14,9 @@ namespace {
 /// serves some 20 to 100 steps, and few pairs are candidates that do not touch.
 constexpr double skin_share = 0.1;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
-/// Share of the vanishing depth that a law may count on until the next search: bodies strain meanwhile.
-constexpr double clear_share = 0.9;
+/// Share of the vanishing depth at the start that a law may count on: bodies strain. Measured once, for what
+/// a law does must not depend on when neighbours were sought.
+constexpr double clear_share = 0.8;
 constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
 constexpr std::size_t body_chunk = 64;
 
@@ -45,6 +46,11 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
     plain_corners_.push_back(plain_corners(model, body));
   }
   if (scene.contact.component == nullptr) return;
+  const MotionState at_start(model);
+  for (std::size_t p = 0; p < model.piece_body.size(); ++p) {
+    const std::uint32_t begin = model.piece_start[p], end = model.piece_start[p + 1];
+    clear_depth_.push_back(clear_share * vanishing_depth(&at_start.corners[begin], end - begin));
+  }
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   history_doubles_ = law_->doubles_per_contact();
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
@@ -82,18 +88,9 @@ void ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   if (slack_ > 0) return;
   search_.find(model, motion, skin_, candidates_);
   rebuild_pairs(model);
-  measure_clear_depths(model, motion);
   travelled_ = 0;
   slack_ = skin_ / 2;
   ++searches_;
-}
-
-void ContactStage::measure_clear_depths(const Model& model, const MotionState& motion) {
-  clear_depth_.resize(model.piece_body.size());
-  for (std::size_t p = 0; p < clear_depth_.size(); ++p) {
-    const std::uint32_t begin = model.piece_start[p], end = model.piece_start[p + 1];
-    clear_depth_[p] = clear_share * vanishing_depth(&motion.corners[begin], end - begin);
-  }
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {

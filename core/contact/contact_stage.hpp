@@ -57,7 +57,6 @@ class ContactStage {
 
  private:
   void rebuild_pairs(const Model& model);
-  void measure_clear_depths(const Model& model, const MotionState& motion);
   void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
   void make_room();
@@ -79,7 +78,7 @@ class ContactStage {
   std::vector<double> priority_;              ///< [body], empty with symmetric roles
   std::vector<char> fixed_;                   ///< [body]
   std::vector<std::uint32_t> plain_corners_;  ///< [body] as BodyPair::plain_corners
-  std::vector<double> clear_depth_;           ///< [piece] as of the last search
+  std::vector<double> clear_depth_;           ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
   double skin_;

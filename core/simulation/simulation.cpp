@@ -110,6 +110,7 @@ RunSummary Simulation::summary() const {
   const State& s = *state_;
   RunSummary summary = s.summary;
   summary.pair_searches = s.contacts.searches();
+  summary.profile = s.profile;
   summary.largest_residual_share = std::max(summary.largest_residual_share, s.ledger.residual_share());
   if (summary.largest_penetration > 0) {
     summary.largest_penetration_pair = fmt::format("'{}' and '{}'", s.scene.bodies[s.deepest_pair.first].name,

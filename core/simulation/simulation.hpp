@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "simulation/profile.hpp"
 #include "simulation/time_step.hpp"
 
 #include <atomic>
@@ -21,6 +22,7 @@ class NumericalTrouble : public std::runtime_error {
 struct RunSettings {
   int threads = 1;
   bool neighbour_skin = true;  ///< off: candidate pairs are sought anew every step, for checking
+  bool profile = false;        ///< take the time of each part of the steps
   double largest_dt = 0;       ///< s, cap on the automatic step; 0 for none
 };
 
@@ -72,6 +74,7 @@ struct RunSummary {
   std::string largest_penetration_pair;
   double largest_residual_share = 0;  ///< of the throughput
   std::vector<std::string> warnings;
+  Profile profile{false};
 };
 
 /// Displacements and the like of every body, to start another run from the same settled geometry.

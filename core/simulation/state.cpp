@@ -39,7 +39,8 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
       start(model.bodies.size()),
       start_displacement(model.patch_star.size()),
       rotation(model.bodies.size(), 0.0),
-      last_turn(model.bodies.size()) {
+      last_turn(model.bodies.size()),
+      profile(settings.profile) {
   summary.critical_dt = critical.dt;
   summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
@@ -48,6 +49,7 @@ Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
 void Simulation::State::step(double next_end) {
+  profile.enter(Phase::move);
   move(model, plan.dt, blocks, motion);  // Eq. 22
   dt_behind = plan.dt;
   ++plan.done;
@@ -61,6 +63,7 @@ void Simulation::State::step(double next_end) {
   }
   forces();
   check_step();
+  profile.leave();
   if (settling) return;
   remember_deepest();
   // The corners of a body that spins differ in speed by its spin times its width or more.
@@ -74,19 +77,25 @@ void Simulation::State::begin(double end) {
   make_plan(end);
   forces();
   check_step();
+  profile.leave();
 }
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
   observed = watched || plan.done == 0;
+  profile.enter(Phase::boundary);
   motion.clear_forces(model);
-  speeds = blocks.follow(model, motion);                           // Eq. 11
+  speeds = blocks.follow(model, motion);  // Eq. 11
+  profile.enter(Phase::neighbours);
   contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
-  const double interface_work = evaluate_contacts();               // Eqs. 28–48
-  loads.apply(motion, settling ? 0 : time, dt_behind);             // Eqs. 19–20
+  profile.enter(Phase::contacts);
+  const double interface_work = evaluate_contacts();  // Eqs. 28–48
+  profile.enter(Phase::loads);
+  loads.apply(motion, settling ? 0 : time, dt_behind);  // Eqs. 19–20
   const Vec2 pull = gravity();
   const Damping& how = settling ? scene.settle->damping : stage.damping;
   const bool at_once = !forces_first(how);
+  profile.enter(Phase::materials);
   if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
     unbalanced_share =
@@ -97,14 +106,17 @@ void Simulation::State::forces() {
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
                                                  at_time);  // Eqs. 18, 23–24
+  profile.enter(Phase::velocities);
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
                                            at_time, deformation.updated());  // Eqs. 23–24
+  profile.enter(Phase::books);
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
     motion.stop();
     ledger.lose_kinetic();
   }
+  profile.enter(Phase::checks);
   fresh = false;
 }
 

@@ -9,6 +9,7 @@
 #include "simulation/ledger.hpp"
 #include "simulation/loads.hpp"
 #include "simulation/patch_mass.hpp"
+#include "simulation/profile.hpp"
 #include "simulation/relaxation.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/time_step.hpp"
@@ -65,6 +66,7 @@ struct Simulation::State {
   ContactTotals contact_totals;
   Deformation::Energy strain_energy;
   LedgerKeeper ledger;
+  Profile profile;
   RunSummary summary;
   std::pair<std::uint32_t, std::uint32_t> deepest_pair{0, 0};  ///< bodies of the largest overlap so far
 

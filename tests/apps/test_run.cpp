@@ -58,6 +58,21 @@ TEST_CASE("a run writes its results and will not overwrite them", "[apps][run]")
   CHECK(json_of(scratch / "out/small/run.json")["state_hash"] == record["state_hash"]);
 }
 
+TEST_CASE("a profile names the parts of the steps, and instruction sets are recorded", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--profile", "--simd", "scalar"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  for (const char* part : {"move", "boundary", "neighbours", "contacts", "loads", "materials", "velocities"})
+    CHECK_THAT(call.out, Contains(part));
+  const Call other = call_talus(scratch.folder(), {"run", "small.json", "--out", "best", "--quiet"});
+  CHECK(other.out.empty());
+  const auto scalar = json_of(scratch / "out/small/run.json"), best = json_of(scratch / "best/run.json");
+  CHECK(scalar["settings"]["simd"] == "scalar");
+  CHECK(scalar["state_hash"] == best["state_hash"]);
+}
+
 TEST_CASE("what was resolved runs to the same state", "[apps][run]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

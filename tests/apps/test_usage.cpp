@@ -48,6 +48,7 @@ TEST_CASE("arguments that are missing, too many or senseless are told", "[apps]"
   CHECK_THAT(refused({"run", "a.json", "b.json"}), Contains("one SCENE only"));
   CHECK_THAT(refused({"run", "a.json", "--threads", "many"}), Contains("--threads"));
   CHECK_THAT(refused({"run", "a.json", "--threads", "0"}), Contains("--threads 0"));
+  CHECK_THAT(refused({"run", "a.json", "--simd", "sse9"}), Contains("--simd sse9") && Contains("avx512"));
   CHECK_THAT(refused({"run", "a.json", "--set", "time=1"}), Contains("--set /pointer=value"));
   CHECK_THAT(refused({"run", "a.json", "--plugin-path", "nowhere"}), Contains("nowhere"));
   CHECK_THAT(refused({"compare", "a.json"}), Contains("--vary"));
