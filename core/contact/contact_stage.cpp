@@ -13,6 +13,9 @@ namespace {
 /// Skin as a share of the mean width of the moving bodies: at the speeds of the shipped scenes a search
 /// serves some 20 to 100 steps, and few pairs are candidates that do not touch.
 constexpr double skin_share = 0.1;
+/// Share of the mean width by which boxes are grown at least: bodies that only rounding makes overlap are
+/// candidates with the skin off, too.
+constexpr double rounding = 1e-9;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
 /// Share of the vanishing depth at the start that a law may count on: bodies strain. Measured once, for what
 /// a law does must not depend on when neighbours were sought.
@@ -86,7 +89,7 @@ void ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   slack_ -= travelled;
   travelled_ += travelled;
   if (slack_ > 0) return;
-  search_.find(model, motion, skin_, candidates_);
+  search_.find(model, motion, std::max(skin_, rounding * model.mean_width), candidates_);
   rebuild_pairs(model);
   travelled_ = 0;
   slack_ = skin_ / 2;
