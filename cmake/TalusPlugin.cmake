@@ -1,7 +1,7 @@
 # Instruction sets a plugin is compiled for beside the baseline of the machine's kind. The program loads the best
 # that the machine has: lib/talus/plugins/<level>/lib<name>.so in place of lib/talus/plugins/lib<name>.so.
 set(talus_simd_levels)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+if(TALUS_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(talus_simd_levels avx2 avx512)
   set(talus_flags_avx2 -march=x86-64-v3)
   set(talus_flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
@@ -15,10 +15,12 @@ function(talus_add_plugin_library target name folder)
     VISIBILITY_INLINES_HIDDEN ON
     OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/talus/plugins/${folder})
-  # Results stay those of IEEE 754; loops may be vectorised that set errno or flags nobody reads. Symbols unique to
-  # the process would make the levels share code.
-  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math
-    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+  # Results stay those of IEEE 754; loops may be vectorised that set errno or flags nobody reads.
+  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+  # Symbols unique to the process would make the levels share code.
+  if(talus_simd_levels AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${target} PRIVATE -fno-gnu-unique)
+  endif()
   # The sanitizers' own functions are in the program, so their users are undefined until they are loaded.
   if(NOT TALUS_SANITIZE)
     target_link_options(${target} PRIVATE -Wl,--no-undefined)

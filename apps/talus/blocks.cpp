@@ -16,7 +16,7 @@ namespace {
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
-Usage make_usage() {
+Usage usage_of_blocks() {
   Usage usage{
       "blocks", "SCENE [-o FILE] [options]",
       "Writes the scene with every generator in \"blocks\" replaced by plain polygons in \"bodies\".\n"
@@ -45,7 +45,7 @@ void check_reads_alike(const std::string& plain, const fs::path& out, const fs::
 }  // namespace
 
 int blocks_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_blocks();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const fs::path file = text_option(*given, "SCENE");

@@ -25,7 +25,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-Usage make_usage() {
+Usage usage_of_compare() {
   Usage usage{
       "compare", "SCENE --vary /pointer=a,b[,c] [options]",
       "Runs a scene once per value of --vary, side by side, from the same settled geometry and at the same "
@@ -95,7 +95,7 @@ void print_troubles(const Comparison& comparison, const std::filesystem::path& f
 }  // namespace
 
 int compare_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_compare();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   if (given->count("vary") == 0) throw UsageError(usage.command, "--vary /pointer=a,b is missing");

@@ -14,7 +14,7 @@ namespace talus {
 
 namespace {
 
-Usage make_usage() {
+Usage usage_of_describe() {
   Usage usage{
       "describe", "NAME [options]",
       "Explains a component (a contact law, a material, a cover) or a section of a scene (as /time) with\n"
@@ -102,7 +102,7 @@ void print_component(const RegisteredComponent& entry) {
 }  // namespace
 
 int describe_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_describe();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::string name = text_option(*given, "NAME");

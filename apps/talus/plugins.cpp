@@ -8,7 +8,7 @@ namespace talus {
 
 namespace {
 
-Usage make_usage() {
+Usage usage_of_plugins() {
   Usage usage{
       "plugins", "[options]",
       "Lists the folders that are searched, the libraries found there with what they bring, and those\n"
@@ -37,7 +37,7 @@ const char* or_dash(const char* text) {
 }  // namespace
 
 int plugins_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_plugins();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   std::vector<std::filesystem::path> from_command_line;

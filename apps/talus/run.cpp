@@ -19,7 +19,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-Usage make_usage() {
+Usage usage_of_run() {
   Usage usage{"run", "SCENE [options]",
               "Runs a scene and writes history.csv, frames.pvd with frames/ (if the scene asks for frames),\n"
               "resolved.json and run.json to a folder: out/<scene name> unless --out says otherwise.",
@@ -82,7 +82,7 @@ int code_of(const RunResult& result) {
 }  // namespace
 
 int run_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_run();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::filesystem::path file = text_option(*given, "SCENE");

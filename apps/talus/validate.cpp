@@ -16,7 +16,7 @@ namespace talus {
 
 namespace {
 
-Usage make_usage() {
+Usage usage_of_validate() {
   Usage usage{
       "validate", "SCENE [options]",
       "Says all mistakes of a scene with file, line and column; or, if there is none, what the scene is.",
@@ -122,7 +122,7 @@ void print_scene(const Scene& scene, const Simulation& simulation,
 }  // namespace
 
 int validate_command(const Words& words) {
-  const Usage usage = make_usage();
+  const Usage usage = usage_of_validate();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::filesystem::path file = text_option(*given, "SCENE");

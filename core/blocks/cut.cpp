@@ -10,9 +10,9 @@ namespace talus {
 namespace {
 
 // Shares of the domain's size.
-constexpr double reach = 1e-8;      // by which ends of lines are lengthened
-constexpr double thinnest = 1e-7;   // width below which a block is a sliver, well above the reach
-constexpr double rounding = 1e-12;  // what crossings may lie off the lines that they are on
+constexpr double reach = 1e-8;             // by which ends of lines are lengthened
+constexpr double thinnest_of_size = 1e-7;  // width below which a block is a sliver, well above the reach
+constexpr double rounding = 1e-12;         // what crossings may lie off the lines that they are on
 
 Vec2 beyond(Vec2 before, Vec2 end, double length) {
   const double dx = end.x - before.x, dy = end.y - before.y, whole = std::hypot(dx, dy);
@@ -61,7 +61,7 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
   for (const Block& face : faces) sum += face.area;
   const double mean = faces.empty() ? 0 : sum / static_cast<double>(faces.size());
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
-  std::vector<Block> blocks = merge_small_faces(std::move(faces), smallest, thinnest * size, geos);
+  std::vector<Block> blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
   for (Block& block : blocks) orient(block);
   name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
   for (Block& block : blocks) drop_idle_vertices(block, tolerance);

@@ -19,10 +19,6 @@ Vec2 direction(Vec2 from, Vec2 to) {
   return {dx / size, dy / size};
 }
 
-double cross(Vec2 p, Vec2 q) {
-  return p.x * q.y - p.y * q.x;
-}
-
 std::size_t next(const ConvexPiece& ring, std::size_t i) {
   return i + 1 == ring.size() ? 0 : i + 1;
 }

@@ -8,16 +8,6 @@ namespace {
 
 constexpr double alike = 1e-9;  ///< of a side, that triangles may differ by
 
-Vec2 minus(Vec2 p, Vec2 q) {
-  return {p.x - q.x, p.y - q.y};
-}
-double cross(Vec2 p, Vec2 q) {
-  return p.x * q.y - p.y * q.x;
-}
-double size_of(Vec2 p) {
-  return std::sqrt(p.x * p.x + p.y * p.y);
-}
-
 struct Triangle {
   std::array<std::uint32_t, 3> patch;
   Vec2 second, third;  ///< from the first corner

@@ -16,15 +16,6 @@ constexpr double longest_miter = 3;    ///< of the depth, along the bisector of 
 constexpr double smallest_turn = 0.1;  ///< rad, between sides that compete past a short one
 constexpr std::size_t most_competitors = 4;  ///< per strip and direction
 
-double dot(Vec2 p, Vec2 q) {
-  return p.x * q.x + p.y * q.y;
-}
-double cross(Vec2 p, Vec2 q) {
-  return p.x * q.y - p.y * q.x;
-}
-Vec2 minus(Vec2 p, Vec2 q) {
-  return {p.x - q.x, p.y - q.y};
-}
 Vec2 along(Vec2 p, double length, Vec2 direction) {
   return {p.x + length * direction.x, p.y + length * direction.y};
 }

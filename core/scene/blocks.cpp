@@ -22,7 +22,7 @@ constexpr double most_blocks = 1e6;  // some gigabytes as JSON and as bodies
 constexpr const char* shared_keys[] = {"material", "cover", "fixed",    "velocity",    "angular_velocity",
                                        "fix",      "drive", "priority", "self_contact"};
 
-constexpr const char* expected =
+constexpr const char* generators_expected =
     "a list of generators [{\"name\": ..., \"domain\": [[x, y], ...], \"joint_sets\": [...], \"material\": "
     "...}]";
 
@@ -190,7 +190,8 @@ Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, Mistak
   const Json generators = std::move(*written);
   scene.erase("blocks");
   if (!generators.is_array()) {
-    mistakes.add("/blocks", fmt::format("{} is not allowed here: expected {}", shown(generators), expected));
+    mistakes.add("/blocks",
+                 fmt::format("{} is not allowed here: expected {}", shown(generators), generators_expected));
     return {};
   }
   if (!scene.contains("bodies") && !generators.empty()) scene["bodies"] = Json::array();

@@ -7,12 +7,12 @@
 namespace talus {
 namespace {
 
-struct Box {
+struct Bounds {
   Vec2 low, high;
 };
 
-Box box_of(const Ring& ring) {
-  Box box{ring[0], ring[0]};
+Bounds box_of(const Ring& ring) {
+  Bounds box{ring[0], ring[0]};
   for (const Vec2 vertex : ring) {
     box.low = {std::min(box.low.x, vertex.x), std::min(box.low.y, vertex.y)};
     box.high = {std::max(box.high.x, vertex.x), std::max(box.high.y, vertex.y)};
@@ -38,7 +38,7 @@ struct Span {
 };
 
 /// Edges above or below the box, relative to its lower left corner so that far-away scenes lose no digits.
-std::vector<Span> spans_of(const Loops& loops, const Box& box) {
+std::vector<Span> spans_of(const Loops& loops, const Bounds& box) {
   std::vector<Span> spans;
   for (const Ring& ring : loops) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -81,7 +81,7 @@ void add_crossing(const Span& a, const Span& b, std::vector<double>& cuts) {
 /// Area of the overlap within the box, by upright slabs between vertices and crossings: within a slab the
 /// common height is linear, so its middle tells it exactly. Nothing here depends on which of two nearly equal
 /// lines is the upper one, so touching bodies come out with rounding only.
-double overlap_area(const Loops& first, const Loops& second, const Box& box) {
+double overlap_area(const Loops& first, const Loops& second, const Bounds& box) {
   const std::vector<Span> a = spans_of(first, box), b = spans_of(second, box);
   const double end = box.high.x - box.low.x;
   std::vector<double> cuts{0, end};
@@ -110,7 +110,7 @@ double overlap_area(const Loops& first, const Loops& second, const Box& box) {
 }  // namespace
 
 std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bodies) {
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   std::vector<double> widths;
   Vec2 spread{};
   for (const Loops* loops : bodies) {
@@ -129,7 +129,7 @@ std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bod
   for (const std::size_t i : order) {
     std::erase_if(active, [&](std::size_t j) { return boxes[j].high.*along <= boxes[i].low.*along; });
     for (const std::size_t j : active) {
-      const Box common{
+      const Bounds common{
           {std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y)},
           {std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y)}};
       const double tolerance = 1e-6 * std::min(widths[i], widths[j]);

@@ -22,7 +22,7 @@ struct Taking {
   Varies varies;
 };
 
-std::string expected(const Parameter& parameter) {
+std::string what_is_allowed(const Parameter& parameter) {
   return fmt::format(
       "{}, {{\"scale\": ..., \"time\": ..., \"x\": ..., \"y\": ...}}, or a list of such to be summed",
       expectation(parameter));
@@ -107,7 +107,7 @@ Product take_product(const Taking& taking, const Json& value, const std::string&
   Product product;
   if (value.empty())
     section.mistakes().add(pointer,
-                           fmt::format("{{}} says nothing: expected {}", expected(taking.parameter)));
+                           fmt::format("{{}} says nothing: expected {}", what_is_allowed(taking.parameter)));
   product.scale = section.value(scale);
   product.time = take_table(taking, section, "time");
   product.x = take_table(taking, section, "x");
@@ -127,7 +127,7 @@ void take_term(const Taking& taking, const Json& value, const std::string& point
     product = take_product(taking, value, pointer, resolved);
   } else {
     taking.reading.mistakes.add(pointer, fmt::format("{} is not allowed here: expected {}", shown(value),
-                                                     expected(taking.parameter)));
+                                                     what_is_allowed(taking.parameter)));
   }
   if (product.scale != 0 && !std::isnan(product.scale)) function.terms.push_back(std::move(product));
 }
@@ -141,7 +141,7 @@ std::array<std::optional<Function>, 2> take_axes(const Taking& taking, Section& 
   if (!written.is_array() || written.size() != 2) {
     section.mistakes().add(pointer,
                            fmt::format("{} is not allowed here: expected [x, y], each {}{}", shown(written),
-                                       expected(taking.parameter), free ? ", or null" : ""));
+                                       what_is_allowed(taking.parameter), free ? ", or null" : ""));
     return axes;
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -164,7 +164,7 @@ Function take_function(Reading& reading, const Parameter& parameter, const Json&
     return function;
   }
   if (value.empty())
-    reading.mistakes.add(pointer, fmt::format("[] sums up nothing: expected {}", expected(parameter)));
+    reading.mistakes.add(pointer, fmt::format("[] sums up nothing: expected {}", what_is_allowed(parameter)));
   for (std::size_t i = 0; i < value.size(); ++i)
     take_term(taking, value[i], below(pointer, i), function, resolved[i]);
   return function;

@@ -24,10 +24,6 @@ Vec2 between(Vec2 p, Vec2 q, double lever) {
   return {p.x + lever * (q.x - p.x), p.y + lever * (q.y - p.y)};
 }
 
-double size_of(Vec2 p) {
-  return std::sqrt(p.x * p.x + p.y * p.y);
-}
-
 }  // namespace
 
 /// Calls visit with each Gauss point of the sides of a body's surface.

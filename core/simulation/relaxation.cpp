@@ -8,10 +8,6 @@
 namespace talus {
 namespace {
 
-double size_of(Vec2 p) {
-  return std::sqrt(p.x * p.x + p.y * p.y);
-}
-
 /// Power of a change of force on a body that moves as a whole; a spin works by the torque.
 double power(const Body& body, const BodyMotion& motion, const BodyForce& change) {
   const double moved = change.force.x * motion.velocity.x + change.force.y * motion.velocity.y;

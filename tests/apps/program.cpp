@@ -2,6 +2,8 @@
 
 #include "output/whole_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -87,6 +89,10 @@ std::string small_scene() {
   "time": {"end": 0.2},
   "output": {"history": 0.01, "frames": 0.1}
 })";
+}
+
+nlohmann::json json_of(const std::filesystem::path& file) {
+  return nlohmann::json::parse(read_whole_file(file));
 }
 
 }  // namespace talus

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,5 +23,8 @@ Call call_and_signal(const std::filesystem::path& folder, const std::vector<std:
 
 /// A block that falls on a fixed slab, small and quick, as JSON text.
 std::string small_scene();
+
+/// A file of JSON.
+nlohmann::json json_of(const std::filesystem::path& file);
 
 }  // namespace talus

@@ -11,10 +11,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-nlohmann::json json_of(const std::filesystem::path& file) {
-  return nlohmann::json::parse(read_whole_file(file));
-}
-
 std::string scene_with(const std::string& line) {
   std::string text = small_scene();
   return text.insert(text.find("\"title\""), line + ", ");

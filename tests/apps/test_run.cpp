@@ -12,14 +12,6 @@
 using namespace talus;
 using Catch::Matchers::Contains;
 
-namespace {
-
-nlohmann::json json_of(const std::filesystem::path& file) {
-  return nlohmann::json::parse(read_whole_file(file));
-}
-
-}  // namespace
-
 TEST_CASE("a run writes its results and will not overwrite them", "[apps][run]") {
   const Scratch scratch;
   const auto scene = scratch.write("small.json", small_scene());

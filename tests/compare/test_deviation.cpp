@@ -9,7 +9,7 @@ using namespace talus;
 
 namespace {
 
-Series line(std::vector<double> times, double offset, double slope) {
+Series straight(std::vector<double> times, double offset, double slope) {
   Series series{times, {"block.speed [m/s]"}, {{}}};
   for (const double time : times) series.values[0].push_back(offset + slope * time);
   return series;
@@ -18,7 +18,7 @@ Series line(std::vector<double> times, double offset, double slope) {
 }  // namespace
 
 TEST_CASE("deviations of curves at the same times", "[compare][deviation]") {
-  const Series baseline = line({0, 1, 2, 3}, 0, 1);
+  const Series baseline = straight({0, 1, 2, 3}, 0, 1);
   Series run = baseline;
   run.values[0] = {0, 1.5, -1, 3.25};
   const auto found = deviation(run, 0, baseline, 0);
@@ -32,21 +32,21 @@ TEST_CASE("deviations of curves at the same times", "[compare][deviation]") {
 }
 
 TEST_CASE("a reference is interpolated, and used only as far as it reaches", "[compare][deviation]") {
-  const Series reference = line({0.5, 2.5}, 1, 2);
-  const Series run = line({0, 0.5, 1, 2, 2.5, 3}, 1.125, 2);
+  const Series reference = straight({0.5, 2.5}, 1, 2);
+  const Series run = straight({0, 0.5, 1, 2, 2.5, 3}, 1.125, 2);
   const auto found = deviation(run, 0, reference, 0);
   REQUIRE(found);
   CHECK(found->times == 4);
   CHECK(found->largest == Approx(0.125));
   CHECK(found->rms == Approx(0.125));
   CHECK(found->final_time == 2.5);
-  CHECK_FALSE(deviation(line({7, 8}, 0, 0), 0, reference, 0));
+  CHECK_FALSE(deviation(straight({7, 8}, 0, 0), 0, reference, 0));
   CHECK(deviation_at(run, 0, reference, 0, 1.75).value() == Approx(0.125));
   CHECK_FALSE(deviation_at(run, 0, reference, 0, 2.75));
 }
 
 TEST_CASE("a value that is no number is the largest deviation", "[compare][deviation]") {
-  const Series baseline = line({0, 1, 2}, 0, 0);
+  const Series baseline = straight({0, 1, 2}, 0, 0);
   Series run = baseline;
   run.values[0] = {5, std::numeric_limits<double>::quiet_NaN(), 9};
   const auto found = deviation(run, 0, baseline, 0);

@@ -1,11 +1,12 @@
 #include "contact_models/pairs.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace talus::bench {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 using Ring = std::vector<Vec2>;
 

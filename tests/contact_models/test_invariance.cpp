@@ -11,7 +11,7 @@ using namespace talus::bench;
 namespace {
 
 /// Coordinates are rounded anew by 1e-15 m when a scene is moved.
-constexpr double relative = 1e-11, rounded_coordinate = 2e-15 * 1e9;
+constexpr double relative_rounding = 1e-11, moved_coordinate = 2e-15 * 1e9;
 
 /// Two steps, so that history and increments count.
 Evaluation after_two_steps(const std::string& law, const std::vector<HeldBody>& bodies, double share) {
@@ -29,7 +29,7 @@ double difference(const BodyForce& p, const BodyForce& q) {
 }
 
 void check_same(const Evaluation& here, const Evaluation& there, const Isometry& isometry) {
-  const double allowed = relative * here.size() + rounded_coordinate;
+  const double allowed = relative_rounding * here.size() + moved_coordinate;
   CHECK(difference(moved(isometry, here.forces[0]), there.forces[0]) <= allowed);
   CHECK(difference(moved(isometry, here.forces[1]), there.forces[1]) <= allowed);
   CHECK(std::abs(here.pairs[0].stored - there.pairs[0].stored) <= 1e-11 * here.pairs[0].stored + 1e-14);
@@ -115,7 +115,7 @@ TEST_CASE("A velocity that both bodies share changes no force", "[laws]") {
       // A velocity of 8 m/s itself is rounded by 1e-15 m/s, and a dashpot is worth some 1e6 N s/m.
       const Evaluation here = after_two_steps(law, pair.bodies, 0.5);
       const Evaluation there = after_two_steps(law, boosted, 0.5);
-      const double allowed = relative * here.size() + 4 * rounded_coordinate;
+      const double allowed = relative_rounding * here.size() + 4 * moved_coordinate;
       CHECK(difference(here.forces[0], there.forces[0]) <= allowed);
       CHECK(difference(here.forces[1], there.forces[1]) <= allowed);
     }

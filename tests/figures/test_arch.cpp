@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace talus;
 using namespace talus::figures;
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 constexpr double radius = 10;  // m, of the centre line
 
 /// The members of the shipped arch with other voussoirs: `share` of the radius thick.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 using namespace talus;
@@ -17,7 +18,7 @@ using namespace talus::figures;
 namespace {
 
 constexpr double young = 1e10, poisson = 0.25;
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 
 /// One body of the material `model`; `body` holds its shape, `rest` further members with a comma behind.
 Scene one_body(const std::string& body, const std::string& cover, const std::string& model = "linear_elastic",

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace talus;
 using namespace talus::figures;
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 constexpr double density = 2300;
 
 // --- A free bar ------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ namespace {
 
 /// Two bodies of the same width, one on the other, of lattices that do not match, under a pressure.
 Scene stacked(const std::string& lower, const std::string& upper, const std::string& lower_shape,
-              double poisson, const std::string& roles) {
+              double poisson_ratio, const std::string& roles) {
   return from_text(fmt::format(
       R"({{"talus": 1,
           "materials": {{"rock": {{"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": {}}}}},
@@ -29,7 +29,7 @@ Scene stacked(const std::string& lower, const std::string& upper, const std::str
           "surface_loads": [{{"body": "upper", "surface": "above", "pressure": 1000}}],
           "settle": {{"duration": 0.08, "damping": "adaptive"}},
           "time": {{"end": 1e-9, "safety": 0.4}}}})",
-      poisson, roles, lower_shape, lower, upper));
+      poisson_ratio, roles, lower_shape, lower, upper));
 }
 
 const std::string lower_box = R"("polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "surfaces": {"bottom": [0]})";

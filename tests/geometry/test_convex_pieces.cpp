@@ -86,9 +86,6 @@ Loop loop_of(const Ring& ring, std::uint32_t first_class) {
   return loop;
 }
 
-double cross(Vec2 p, Vec2 q) {
-  return p.x * q.y - p.y * q.x;
-}
 Vec2 between(Vec2 p, Vec2 q) {
   return {q.x - p.x, q.y - p.y};
 }

@@ -11,7 +11,7 @@ namespace {
 
 const Ring rectangle{{1, 2}, {5, 2}, {5, 4}, {1, 4}};
 
-Ring turned(const Ring& ring, double angle) {
+Ring rotated(const Ring& ring, double angle) {
   Ring result;
   for (const Vec2 p : ring) {
     result.push_back(
@@ -80,7 +80,7 @@ TEST_CASE("a reversed ring counts negative, so that a hole is taken out by addin
 }
 
 TEST_CASE("moments about the centroid do not depend on where they were taken", "[geometry][polygon]") {
-  const Ring ring = turned({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}, 0.4);
+  const Ring ring = rotated({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}, 0.4);
   const AreaMoments here = about_centroid(ring_moments(ring, {0, 0}));
   const AreaMoments there = about_centroid(ring_moments(ring, {-20, 30}));
   CHECK(here.x == 0);
@@ -94,7 +94,7 @@ TEST_CASE("moments about the centroid do not depend on where they were taken", "
 TEST_CASE("the polar moment is the same in every orientation", "[geometry][polygon]") {
   const AreaMoments upright = about_centroid(ring_moments(rectangle, {0, 0}));
   for (const double angle : {0.1, 0.7, 2.0, 4.4}) {
-    const AreaMoments m = about_centroid(ring_moments(turned(rectangle, angle), {0, 0}));
+    const AreaMoments m = about_centroid(ring_moments(rotated(rectangle, angle), {0, 0}));
     CHECK(m.area == Approx(8));
     CHECK(m.xx + m.yy == Approx(upright.xx + upright.yy));
     CHECK(m.xx * m.yy - m.xy * m.xy == Approx(upright.xx * upright.yy));
@@ -103,12 +103,12 @@ TEST_CASE("the polar moment is the same in every orientation", "[geometry][polyg
 
 TEST_CASE("the smallest width of a hull", "[geometry][polygon]") {
   for (const double angle : {0.0, 0.3, 1.2, 3.0}) {
-    CHECK(smallest_width(turned(rectangle, angle)) == Approx(2));
+    CHECK(smallest_width(rotated(rectangle, angle)) == Approx(2));
     // An equilateral triangle of side 2: its height.
-    CHECK(smallest_width(turned({{0, 0}, {2, 0}, {1, std::sqrt(3.0)}}, angle)) == Approx(std::sqrt(3.0)));
+    CHECK(smallest_width(rotated({{0, 0}, {2, 0}, {1, std::sqrt(3.0)}}, angle)) == Approx(std::sqrt(3.0)));
     // Concave: what the hull measures.
-    CHECK(smallest_width(turned({{0, 0}, {4, 0}, {4, 3}, {2, 0.5}, {0, 3}}, angle)) == Approx(3));
+    CHECK(smallest_width(rotated({{0, 0}, {4, 0}, {4, 3}, {2, 0.5}, {0, 3}}, angle)) == Approx(3));
     // Collinear vertices change nothing.
-    CHECK(smallest_width(turned({{0, 0}, {2, 0}, {4, 0}, {4, 1}, {1, 1}, {0, 1}}, angle)) == Approx(1));
+    CHECK(smallest_width(rotated({{0, 0}, {2, 0}, {4, 0}, {4, 1}, {1, 1}, {0, 1}}, angle)) == Approx(1));
   }
 }

@@ -67,7 +67,7 @@ struct CellsAsTriangles {
   }
 };
 
-const std::array<double, 4> gradient{2.5, -1.25, 0.5, 3};
+const std::array<double, 4> steep{2.5, -1.25, 0.5, 3};
 
 }  // namespace
 
@@ -78,9 +78,9 @@ TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernel
     const std::uint32_t row = cells + 1;
     const std::vector<double> x = random.numbers(2 * row), y = random.numbers(2 * row);
     Tensors as_cells(2 * cells), as_triangles(2 * cells);
-    loops.lattice_gradient(cells, gradient.data(), x.data(), y.data(), x.data() + row, y.data() + row,
+    loops.lattice_gradient(cells, steep.data(), x.data(), y.data(), x.data() + row, y.data() + row,
                            as_cells.rows.data());
-    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, gradient, 1).arrays(), x.data(), y.data(),
+    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1).arrays(), x.data(), y.data(),
                             as_triangles.rows.data());
     double largest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -99,9 +99,9 @@ TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]
     const Tensors stress(2 * cells, &random);
     const std::vector<double> before_x = random.numbers(2 * row), before_y = random.numbers(2 * row);
     std::vector<double> x = before_x, y = before_y, fx = before_x, fy = before_y, spare(16 * row);
-    loops.lattice_force(cells, gradient.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
+    loops.lattice_force(cells, steep.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
                         y.data() + row, spare.data());
-    loops.triangle_force(2 * cells, CellsAsTriangles(cells, gradient, 0.75).arrays(), stress.rows.data(),
+    loops.triangle_force(2 * cells, CellsAsTriangles(cells, steep, 0.75).arrays(), stress.rows.data(),
                          fx.data(), fy.data(), spare.data());
     double largest = 0, sum_x = 0, moved = 0;
     for (std::size_t i = 0; i < 2 * row; ++i) {

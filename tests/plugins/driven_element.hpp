@@ -12,6 +12,9 @@
 
 namespace talus {
 
+constexpr double young = 2e9, poisson = 0.3;          ///< Pa; of the elastic samples
+constexpr double plane_strain = 0, plane_stress = 1;  ///< values of the parameter "plane"
+
 using Tensor = std::array<double, 4>;  ///< xx, xy, yx, yy
 
 Tensor product(const Tensor& p, const Tensor& q);

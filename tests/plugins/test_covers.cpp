@@ -16,7 +16,7 @@ using namespace talus;
 namespace {
 
 /// Writes down what a builder makes.
-class Notes final : public CoverSink {
+class CoverNotes final : public CoverSink {
  public:
   std::uint32_t add_patch(double x, double y) noexcept override {
     stars.push_back({x, y});
@@ -99,7 +99,7 @@ TEST_CASE("a block is one element of three patches on a regular triangle around 
           "[plugins][block]") {
   for (const Ring& ring : rings) {
     const Drawn drawn(ring);
-    Notes notes;
+    CoverNotes notes;
     const auto block = builder("block");
     block->build(drawn.shape(), notes);
     CHECK(notes.rigid == 0);
@@ -133,7 +133,7 @@ TEST_CASE("a block is one element of three patches on a regular triangle around 
 TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rigid]") {
   for (const Ring& ring : rings) {
     const Drawn drawn(ring);
-    Notes notes;
+    CoverNotes notes;
     builder("rigid")->build(drawn.shape(), notes);
     CHECK(notes.rigid == 1);
     CHECK(notes.stars.empty());
@@ -143,7 +143,7 @@ TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rig
 
 TEST_CASE("a block and a rigid body cannot be cut by discontinuities", "[plugins][block][rigid]") {
   for (const char* name : {"block", "rigid"}) {
-    Notes notes;
+    CoverNotes notes;
     builder(name)->build(Drawn(rings[0]).cut(), notes);
     CHECK(notes.refusal.find("cut by discontinuities") != std::string::npos);
     CHECK(notes.elements.empty());

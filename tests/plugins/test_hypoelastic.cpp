@@ -9,11 +9,9 @@ using namespace talus;
 
 namespace {
 
-constexpr double young = 2e9, poisson = 0.3;
 constexpr double shear = young / (2 * (1 + poisson));
-constexpr double plane_strain = 0, plane_stress = 1;
 
-Made<Material> material(double plane = plane_strain, double damping_time = 0) {
+Made<Material> hypoelastic(double plane = plane_strain, double damping_time = 0) {
   return shipped_material("hypoelastic", std::array{young, poisson, plane, damping_time});
 }
 
@@ -21,7 +19,7 @@ Made<Material> material(double plane = plane_strain, double damping_time = 0) {
 
 TEST_CASE("a hundred turns leave a hypoelastic body without stress", "[plugins][hypoelastic]") {
   const double turn = 2 * std::acos(-1.0);
-  const auto law = material();
+  const auto law = hypoelastic();
   for (const int steps_per_turn : {3, 7, 200}) {
     DrivenElement element(*law);
     Response last{};
@@ -35,7 +33,7 @@ TEST_CASE("a hundred turns carry the stress of a hypoelastic body along unchange
           "[plugins][hypoelastic]") {
   const double turn = 2 * std::acos(-1.0);
   const Tensor deformed{1.001, 0.0005, -0.001, 0.999};
-  const auto law = material();
+  const auto law = hypoelastic();
   for (const int steps_per_turn : {3, 7, 200}) {
     DrivenElement element(*law);
     const Response start = element.to(deformed);
@@ -55,7 +53,7 @@ TEST_CASE("a hundred turns carry the stress of a hypoelastic body along unchange
 TEST_CASE("for small strains the rate form is linear elasticity", "[plugins][hypoelastic]") {
   const double strain = 1e-5, spin = 1e-4;
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane);
+    const auto law = hypoelastic(plane);
     const auto total = shipped_material("linear_elastic", std::array{young, poisson, plane, 0.0});
     DrivenElement element(*law), reference(*total);
     double largest = 0;
@@ -77,7 +75,7 @@ TEST_CASE("for small strains the rate form is linear elasticity", "[plugins][hyp
 TEST_CASE("stretched far, the strain of a hypoelastic body is logarithmic", "[plugins][hypoelastic]") {
   const double stretch = 1.5;
   const double modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
-  const auto law = material();
+  const auto law = hypoelastic();
   double errors[2];
   for (int level = 0; level < 2; ++level) {
     DrivenElement element(*law);
@@ -94,7 +92,7 @@ TEST_CASE("sheared far, a hypoelastic body follows the known circle of Jaumann's
           "[plugins][hypoelastic]") {
   // σ_xy = G sin γ and σ_xx = −σ_yy = G (1 − cos γ).
   const double angle = 1.5;
-  const auto law = material();
+  const auto law = hypoelastic();
   double errors[2];
   for (int level = 0; level < 2; ++level) {
     DrivenElement element(*law);
@@ -111,7 +109,7 @@ TEST_CASE("sheared far, a hypoelastic body follows the known circle of Jaumann's
 TEST_CASE("the energy of a hypoelastic body is the work of its stress, to round-off",
           "[plugins][hypoelastic]") {
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane);
+    const auto law = hypoelastic(plane);
     for (const double strain : {1e-6, 1e-3, 0.2}) {
       DrivenElement element(*law);
       for (const Tensor& f : lively_path(strain, 2000)) {
@@ -127,7 +125,7 @@ TEST_CASE("the energy of a hypoelastic body is the work of its stress, to round-
 TEST_CASE("a closed cycle of strain gives or takes little energy: what the rate form is known for",
           "[plugins][hypoelastic]") {
   // The energy per cycle is cubic in the strain at most: smaller than the energy in motion by the strain.
-  const auto law = material();
+  const auto law = hypoelastic();
   for (const double strain : {1e-4, 1e-3, 1e-2}) {
     DrivenElement element(*law);
     double largest = 0;
@@ -146,7 +144,7 @@ TEST_CASE("a closed cycle of strain gives or takes little energy: what the rate 
 TEST_CASE("a hypoelastic body keeps to what every law must keep to", "[plugins][hypoelastic]") {
   const std::vector<Tensor> path = lively_path(0.02, 400);
   for (const double damping_time : {0.0, 2e-4}) {
-    const auto law = material(plane_strain, damping_time);
+    const auto law = hypoelastic(plane_strain, damping_time);
     CHECK(law->doubles_per_element() == 4);
     check_restart(*law, path);
     check_batch(*law, path);
@@ -157,7 +155,7 @@ TEST_CASE("a hypoelastic body keeps to what every law must keep to", "[plugins][
 
 TEST_CASE("a hypoelastic path that turns on the way ends as one that does not, as steps get smaller",
           "[plugins][hypoelastic]") {
-  const auto law = material();
+  const auto law = hypoelastic();
   const Tensor end{1.02, 0.01, 0.01, 0.97};
   double errors[2];
   for (int level = 0; level < 2; ++level) {
@@ -184,8 +182,8 @@ TEST_CASE("viscous stress of a hypoelastic body follows the strain rate and does
           "[plugins][hypoelastic]") {
   const double time = 3e-4, dt = 1e-3, strain = 1e-6;
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane, time);
-    const auto elastic = material(plane);
+    const auto law = hypoelastic(plane, time);
+    const auto elastic = hypoelastic(plane);
     CHECK(law->viscous_time() == time);
     CHECK(elastic->viscous_time() == 0);
     check_spin_is_free(*law, *elastic, {1.02, 0.01, -0.03, 0.97}, 1e-14 * young);
@@ -202,7 +200,7 @@ TEST_CASE("viscous stress of a hypoelastic body follows the strain rate and does
     CHECK(DrivenElement(*law).to(stretched, 0).stress == plain.stress);
     CHECK(DrivenElement(*law).to(stretched, 0).dissipated == 0);
   }
-  const auto law = material(plane_strain, time);
+  const auto law = hypoelastic(plane_strain, time);
   DrivenElement element(*law);
   for (const Tensor& f : lively_path(0.05, 400)) REQUIRE(element.to(f).dissipated >= 0);
 }

@@ -10,10 +10,7 @@ using namespace talus;
 
 namespace {
 
-constexpr double young = 2e9, poisson = 0.3;
-constexpr double plane_strain = 0, plane_stress = 1;
-
-Made<Material> material(double plane, double damping_time = 0) {
+Made<Material> linear_elastic(double plane, double damping_time = 0) {
   return shipped_material("linear_elastic", std::array{young, poisson, plane, damping_time});
 }
 
@@ -38,7 +35,7 @@ std::vector<Tensor> deformations(double strain) {
 
 TEST_CASE("stress is the derivative of the energy", "[plugins][linear_elastic]") {
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane);
+    const auto law = linear_elastic(plane);
     for (const double strain : {1e-3, 0.05, 0.3}) {
       for (const Tensor& f : deformations(strain)) {
         const Tensor stress = respond(*law, f).stress;
@@ -60,7 +57,7 @@ TEST_CASE("stress is the derivative of the energy", "[plugins][linear_elastic]")
 }
 
 TEST_CASE("energy and stress turn with the body", "[plugins][linear_elastic]") {
-  const auto law = material(plane_strain);
+  const auto law = linear_elastic(plane_strain);
   const double pi = std::acos(-1.0);
   for (const Tensor& f : deformations(0.01)) {
     const Response upright = respond(*law, f);
@@ -80,7 +77,7 @@ TEST_CASE("energy and stress turn with the body", "[plugins][linear_elastic]") {
 }
 
 TEST_CASE("a rotation alone causes no stress", "[plugins][linear_elastic]") {
-  const auto law = material(plane_strain);
+  const auto law = linear_elastic(plane_strain);
   for (int i = 0; i < 100; ++i) {
     const Response response = respond(*law, rotation(0.0628 * i));
     CHECK(size_of(response.stress) < 1e-15 * 10 * young);
@@ -90,7 +87,7 @@ TEST_CASE("a rotation alone causes no stress", "[plugins][linear_elastic]") {
 }
 
 TEST_CASE("the stress of a turned body is symmetric: no moment", "[plugins][linear_elastic]") {
-  const auto law = material(plane_stress);
+  const auto law = linear_elastic(plane_stress);
   for (const Tensor& f : deformations(0.1)) {
     const Tensor p = respond(*law, f).stress;
     const Tensor kirchhoff = product(p, transposed(f));
@@ -101,14 +98,14 @@ TEST_CASE("the stress of a turned body is symmetric: no moment", "[plugins][line
 TEST_CASE("uniaxial stress: the moduli of plane strain and plane stress", "[plugins][linear_elastic]") {
   const double pull = 1e-6;
   // Plane strain: pulled by σ, ε = σ (1 − ν²)/E and sideways −ν/(1 − ν) of it.
-  const auto strain = material(plane_strain);
+  const auto strain = linear_elastic(plane_strain);
   const Response confined = respond(*strain, {1 + pull, 0, 0, 1 - poisson / (1 - poisson) * pull});
   CHECK(confined.stress[0] == Approx(young / (1 - poisson * poisson) * pull).epsilon(1e-9));
   CHECK(confined.stress[3] == Approx(0).margin(1e-9 * young * pull));
   CHECK(confined.energy == Approx(young / (1 - poisson * poisson) * pull * pull / 2).epsilon(1e-9));
 
   // Plane stress: E and −ν.
-  const auto stress = material(plane_stress);
+  const auto stress = linear_elastic(plane_stress);
   const Response plate = respond(*stress, {1 + pull, 0, 0, 1 - poisson * pull});
   CHECK(plate.stress[0] == Approx(young * pull).epsilon(1e-9));
   CHECK(plate.stress[3] == Approx(0).margin(1e-9 * young * pull));
@@ -123,7 +120,7 @@ TEST_CASE("uniaxial stress: the moduli of plane strain and plane stress", "[plug
 TEST_CASE("simple shear: G, the same in both planes", "[plugins][linear_elastic]") {
   const double angle = 1e-6;
   for (const double plane : {plane_strain, plane_stress}) {
-    const Response sheared = respond(*material(plane), {1, angle, 0, 1});
+    const Response sheared = respond(*linear_elastic(plane), {1, angle, 0, 1});
     CHECK(sheared.stress[1] == Approx(young / (2 * (1 + poisson)) * angle).epsilon(1e-5));
     CHECK(sheared.dissipated == 0);
   }
@@ -131,7 +128,7 @@ TEST_CASE("simple shear: G, the same in both planes", "[plugins][linear_elastic]
 
 TEST_CASE("the stiffest tangent is the one at rest", "[plugins][linear_elastic]") {
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane);
+    const auto law = linear_elastic(plane);
     check_tangent(*law);
     CHECK(law->doubles_per_element() == 0);
   }
@@ -139,14 +136,14 @@ TEST_CASE("the stiffest tangent is the one at rest", "[plugins][linear_elastic]"
 
 TEST_CASE("a batch gives each element what it gives it alone", "[plugins][linear_elastic]") {
   for (const double damping_time : {0.0, 2e-4}) {
-    check_batch(*material(plane_strain, damping_time), deformations(0.02));
-    check_restart(*material(plane_strain, damping_time), deformations(0.02));
+    check_batch(*linear_elastic(plane_strain, damping_time), deformations(0.02));
+    check_restart(*linear_elastic(plane_strain, damping_time), deformations(0.02));
   }
 }
 
 TEST_CASE("the work of the stress goes to the energy, more exactly in smaller steps",
           "[plugins][linear_elastic]") {
-  const auto law = material(plane_strain);
+  const auto law = linear_elastic(plane_strain);
   double errors[2];
   for (int level = 0; level < 2; ++level) {
     DrivenElement element(*law);
@@ -162,8 +159,8 @@ TEST_CASE("viscous stress is damping_time times the elastic stress of the strain
           "[plugins][linear_elastic]") {
   const double time = 3e-4, dt = 1e-3, rate = 1e-3;
   for (const double plane : {plane_strain, plane_stress}) {
-    const auto law = material(plane, time);
-    const auto elastic = material(plane);
+    const auto law = linear_elastic(plane, time);
+    const auto elastic = linear_elastic(plane);
     CHECK(law->viscous_time() == time);
     CHECK(elastic->viscous_time() == 0);
     check_tangent(*law);
@@ -188,11 +185,11 @@ TEST_CASE("viscous stress is damping_time times the elastic stress of the strain
 
 TEST_CASE("viscous stress takes energy, turns nothing and does not feel a spin",
           "[plugins][linear_elastic]") {
-  const auto law = material(plane_strain, 3e-4);
+  const auto law = linear_elastic(plane_strain, 3e-4);
   const std::vector<Tensor> path = lively_path(0.05, 400);
   check_no_moment(*law, path, 1e-14 * young);
   check_fixed_turn(*law, path, 1e-13 * young);
-  check_spin_is_free(*law, *material(plane_strain), {1.02, 0.01, -0.03, 0.97}, 1e-14 * young);
+  check_spin_is_free(*law, *linear_elastic(plane_strain), {1.02, 0.01, -0.03, 0.97}, 1e-14 * young);
   DrivenElement element(*law);
   for (const Tensor& f : path) REQUIRE(element.to(f).dissipated >= 0);
   CHECK(element.dissipated() > 0);
@@ -200,7 +197,7 @@ TEST_CASE("viscous stress takes energy, turns nothing and does not feel a spin",
 
 TEST_CASE("what viscosity takes is the work of the stress that is not stored", "[plugins][linear_elastic]") {
   // Viscous stress lags by half a step: the two agree to first order.
-  const auto law = material(plane_strain, 3e-3);
+  const auto law = linear_elastic(plane_strain, 3e-3);
   double errors[2];
   for (int level = 0; level < 2; ++level) {
     const int steps = level == 0 ? 1000 : 2000;

@@ -16,7 +16,7 @@ using namespace talus;
 namespace {
 
 /// Writes down what a builder makes.
-class Notes final : public CoverSink {
+class MeshNotes final : public CoverSink {
  public:
   struct BoundaryVertex {
     Vec2 at;
@@ -71,7 +71,7 @@ struct MeshedBody {
   void add_node(Vec2 p) { node_x.push_back(p.x), node_y.push_back(p.y); }
   Vec2 node(std::uint32_t i) const { return {node_x[i], node_y[i]}; }
 
-  Notes covered() const {
+  MeshNotes covered() const {
     const RegisteredComponent* found = shipped_registry().find(ComponentKind::cover_builder, "mesh");
     REQUIRE(found != nullptr);
     CHECK(found->component->parameter_count == 0);
@@ -85,7 +85,7 @@ struct MeshedBody {
     for (const auto& corners : triangles) flat.insert(flat.end(), corners.begin(), corners.end());
     shape.mesh = {node_x.data(), node_y.data(), reinterpret_cast<const std::uint32_t(*)[3]>(flat.data()),
                   static_cast<std::uint32_t>(node_x.size()), static_cast<std::uint32_t>(triangles.size())};
-    Notes notes;
+    MeshNotes notes;
     builder->build(shape, notes);
     return notes;
   }
@@ -131,7 +131,7 @@ MeshedBody frame() {
 
 TEST_CASE("nodes of a mesh become patches and triangles elements", "[plugins][mesh]") {
   const MeshedBody body = frame();
-  const Notes notes = body.covered();
+  const MeshNotes notes = body.covered();
   CHECK(notes.refusal.empty());
   CHECK(notes.rigid == 0);
   CHECK(notes.steadied == 0);
@@ -154,7 +154,7 @@ TEST_CASE("nodes of a mesh become patches and triangles elements", "[plugins][me
 TEST_CASE("the boundary of a mesh follows the outline, each side on the triangle behind it",
           "[plugins][mesh]") {
   const MeshedBody body = frame();
-  const Notes notes = body.covered();
+  const MeshNotes notes = body.covered();
   CHECK(notes.open.empty());
   REQUIRE(notes.loops.size() == 2);
   CHECK(notes.loops[0].size() == 12);
@@ -183,7 +183,7 @@ TEST_CASE("a body without a mesh or with discontinuities is refused by the mesh 
           "[plugins][mesh]") {
   MeshedBody bare = frame();
   bare.triangles.clear();
-  const Notes none = bare.covered();
+  const MeshNotes none = bare.covered();
   CHECK_THAT(none.refusal,
              Catch::StartsWith("the body has no mesh: give \"mesh\": \"file.msh\" instead of \"polygon\""));
 
@@ -191,9 +191,9 @@ TEST_CASE("a body without a mesh or with discontinuities is refused by the mesh 
   cut.line_x = {-1, 1};
   cut.line_y = {0, 0};
   cut.line_start = {0, 2};
-  const Notes torn = cut.covered();
+  const MeshNotes torn = cut.covered();
   CHECK_THAT(torn.refusal, Catch::StartsWith("a mesh is not cut by discontinuities"));
-  for (const Notes* notes : {&none, &torn}) {
+  for (const MeshNotes* notes : {&none, &torn}) {
     CHECK(notes->stars.empty());
     CHECK(notes->elements.empty());
     CHECK(notes->loops.empty());
@@ -211,7 +211,7 @@ TEST_CASE("an outline that is not the boundary of the mesh is refused", "[plugin
   std::swap(crossed.outline_x[3], crossed.outline_x[5]);
   std::swap(crossed.outline_y[3], crossed.outline_y[5]);
   for (const MeshedBody& body : {moved, without_hole, less, crossed}) {
-    const Notes notes = body.covered();
+    const MeshNotes notes = body.covered();
     CHECK(notes.refusal == "the outline of the body is not the boundary of its mesh");
     CHECK(notes.elements.empty());
   }

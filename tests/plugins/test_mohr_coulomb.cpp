@@ -42,8 +42,9 @@ std::array<double, 3> principal(const std::vector<double>& state) {
 /// Excess over yield, Pa, written anew from the two criteria.
 double excess(const Soil& soil, const std::array<double, 3>& stress) {
   const double s = std::sin(soil.friction * degree), c = std::cos(soil.friction * degree);
-  const double shear = (stress[0] - stress[2]) + (stress[0] + stress[2]) * s - 2 * soil.cohesion * c;
-  return std::max(shear, stress[0] - soil.tension);
+  const double beyond_friction =
+      (stress[0] - stress[2]) + (stress[0] + stress[2]) * s - 2 * soil.cohesion * c;
+  return std::max(beyond_friction, stress[0] - soil.tension);
 }
 
 double largest(const std::array<double, 3>& stress) {

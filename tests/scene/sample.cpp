@@ -131,4 +131,10 @@ std::vector<Mistake> mistakes(const std::string& text, const ReadOptions& option
   return {};
 }
 
+std::string interface_row(const std::string& first, const std::string& second, int friction_angle) {
+  return "{\"between\": [\"" + first + "\", \"" + second +
+         "\"], \"normal_stiffness\": 1, \"normal_damping\": 0, \"friction_angle\": " +
+         std::to_string(friction_angle) + "}";
+}
+
 }  // namespace talus::sample

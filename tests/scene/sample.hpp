@@ -20,6 +20,9 @@ std::string good_but(const std::string& old_text, const std::string& new_text);
 /// "time".
 std::string good_with(const std::string& part);
 
+/// A row of "interfaces" for the law of shear; the angle is in degrees.
+std::string interface_row(const std::string& first, const std::string& second, int friction_angle);
+
 Scene read(const std::string& text, const ReadOptions& options = {});
 
 /// The mistakes of a scene; empty if it passes.

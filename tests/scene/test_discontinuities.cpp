@@ -6,6 +6,7 @@
 
 using namespace talus;
 using nlohmann::json;
+using sample::interface_row;
 using talus::sample::BadPart;
 
 namespace {
@@ -25,15 +26,9 @@ std::string single(const std::string& part, const std::string& rows = "") {
   return text + "}";
 }
 
-std::string row(const std::string& first, const std::string& second, int friction_angle) {
-  return "{\"between\": [\"" + first + "\", \"" + second +
-         "\"], \"normal_stiffness\": 1, \"normal_damping\": 0, \"friction_angle\": " +
-         std::to_string(friction_angle) + "}";
-}
-
 const char* const cut = R"(, "discontinuities": [{"points": [[0, 2], [4, 2]], "surface": "joint"}])";
 
-const BadPart bad_parts[] = {
+const BadPart bad_discontinuities[] = {
     {"discontinuities that are no list",
      R"("discontinuities": 1)",
      "/bodies/1/discontinuities",
@@ -89,7 +84,7 @@ const BadPart bad_parts[] = {
 }  // namespace
 
 TEST_CASE("every mistake about discontinuities is told with its place and what would be right", "[scene]") {
-  for (const BadPart& bad : bad_parts) {
+  for (const BadPart& bad : bad_discontinuities) {
     DYNAMIC_SECTION(bad.requirement) {
       sample::check_alone(bad, block_with(bad.part));
     }
@@ -155,7 +150,7 @@ TEST_CASE("an edge number beyond the last hole is named", "[scene]") {
 }
 
 TEST_CASE("loads find surfaces of holes and of discontinuities", "[scene]") {
-  std::string text = single(cut, row("*", "*", 1));
+  std::string text = single(cut, interface_row("*", "*", 1));
   text.insert(text.size() - 1, R"(, "surface_loads": [{"body": "a", "surface": "joint", "pressure": 1},
                                    {"body": "a", "surface": "roof", "pressure": 1}])");
   const Scene scene = sample::read(text);
@@ -175,17 +170,19 @@ TEST_CASE("the faces of a discontinuity meet themselves and the rest of their bo
   CHECK_THAT(bare[0].message, Catch::Contains("\"contact\""));
   CHECK_THAT(bare[1].message, Catch::Contains("\"interfaces\""));
   // joint against joint, base, tunnel, roof and the unnamed sides
-  CHECK(sample::mistakes(single(cut, row("base", "base", 1))).size() == 5);
-  CHECK(sample::mistakes(single(cut, row("joint", "joint", 1))).size() == 4);
-  CHECK(sample::mistakes(single(cut, row("joint", "*", 1))).empty());
-  CHECK(sample::mistakes(single(cut, row("a/joint", "*", 1))).empty());
-  CHECK(sample::read(single(cut, row("joint", "*", 1))).contact.component != nullptr);
+  CHECK(sample::mistakes(single(cut, interface_row("base", "base", 1))).size() == 5);
+  CHECK(sample::mistakes(single(cut, interface_row("joint", "joint", 1))).size() == 4);
+  CHECK(sample::mistakes(single(cut, interface_row("joint", "*", 1))).empty());
+  CHECK(sample::mistakes(single(cut, interface_row("a/joint", "*", 1))).empty());
+  CHECK(sample::read(single(cut, interface_row("joint", "*", 1))).contact.component != nullptr);
 }
 
 TEST_CASE("with contact of a body with itself all its surfaces meet", "[scene]") {
   // base, tunnel, roof and the unnamed sides: ten pairs
-  CHECK(sample::mistakes(single(R"(, "self_contact": true)", row("base", "base", 1))).size() == 9);
-  CHECK(sample::mistakes(single(R"(, "self_contact": true)", row("rock", "*", 1))).empty());
-  CHECK(sample::read(single(R"(, "self_contact": true)", row("rock", "*", 1))).bodies[0].self_contact);
+  CHECK(sample::mistakes(single(R"(, "self_contact": true)", interface_row("base", "base", 1))).size() == 9);
+  CHECK(sample::mistakes(single(R"(, "self_contact": true)", interface_row("rock", "*", 1))).empty());
+  CHECK(sample::read(single(R"(, "self_contact": true)", interface_row("rock", "*", 1)))
+            .bodies[0]
+            .self_contact);
   CHECK(sample::mistakes(single(R"(, "self_contact": false)")).empty());
 }

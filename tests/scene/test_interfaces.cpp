@@ -9,10 +9,11 @@
 #include <string_view>
 
 using namespace talus;
+using sample::interface_row;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree_in_rows = std::numbers::pi / 180;
 
 /// The ramp (steel, surfaces "top" and "" ) and two blocks of rock, each with a surface "base".
 std::string with_rows(const std::string& rows) {
@@ -26,12 +27,6 @@ std::string with_rows(const std::string& rows) {
          rows + "]}";
 }
 
-std::string row(const std::string& first, const std::string& second, int friction_angle) {
-  return "{\"between\": [\"" + first + "\", \"" + second +
-         "\"], \"normal_stiffness\": 1, \"normal_damping\": 0, \"friction_angle\": " +
-         std::to_string(friction_angle) + "}";
-}
-
 /// Friction angle in degrees between an edge of one body and an edge of another.
 double angle(const Scene& scene, std::size_t body, std::size_t edge, std::size_t other,
              std::size_t other_edge) {
@@ -39,14 +34,15 @@ double angle(const Scene& scene, std::size_t body, std::size_t edge, std::size_t
                       j = scene.bodies[other].outer.surface_class[other_edge];
   const std::size_t count = scene.surfaces.size();
   CHECK(scene.interface_row[i * count + j] == scene.interface_row[j * count + i]);
-  return scene.interface_values[scene.interface_row[i * count + j]][1] / degree;
+  return scene.interface_values[scene.interface_row[i * count + j]][1] / degree_in_rows;
 }
 
 }  // namespace
 
 TEST_CASE("the more specific row wins, whatever the order of rows and sides", "[scene]") {
-  const std::vector<std::string> rows{row("*", "*", 1),      row("rock", "*", 2),   row("steel", "rock", 3),
-                                      row("top", "rock", 4), row("base", "top", 5), row("rock", "rock", 6)};
+  const std::vector<std::string> rows{interface_row("*", "*", 1),        interface_row("rock", "*", 2),
+                                      interface_row("steel", "rock", 3), interface_row("top", "rock", 4),
+                                      interface_row("base", "top", 5),   interface_row("rock", "rock", 6)};
   for (const bool reversed : {false, true}) {
     std::string all;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -61,21 +57,23 @@ TEST_CASE("the more specific row wins, whatever the order of rows and sides", "[
 }
 
 TEST_CASE("a row with one * comes before a row with two", "[scene]") {
-  const Scene scene = sample::read(with_rows(row("*", "*", 1) + "," + row("*", "top", 2)));
+  const Scene scene =
+      sample::read(with_rows(interface_row("*", "*", 1) + "," + interface_row("*", "top", 2)));
   CHECK(angle(scene, 0, 2, 1, 0) == Approx(2));
   CHECK(angle(scene, 0, 0, 1, 0) == Approx(1));
 }
 
 TEST_CASE("body/surface limits a row to one body", "[scene]") {
   const Scene scene =
-      sample::read(with_rows(row("*", "*", 1) + "," + row("base", "top", 2) + "," + row("top", "b/base", 3)));
+      sample::read(with_rows(interface_row("*", "*", 1) + "," + interface_row("base", "top", 2) + "," +
+                             interface_row("top", "b/base", 3)));
   CHECK(angle(scene, 0, 2, 1, 0) == Approx(2));
   CHECK(angle(scene, 0, 2, 2, 0) == Approx(3));
 }
 
 TEST_CASE("surface classes are the distinct pairs of material and surface, in the order of the edges",
           "[scene]") {
-  const Scene scene = sample::read(with_rows(row("*", "*", 1)));
+  const Scene scene = sample::read(with_rows(interface_row("*", "*", 1)));
   REQUIRE(scene.surfaces.size() == 4);
   CHECK((scene.surfaces[0].material == "steel" && scene.surfaces[0].surface.empty()));
   CHECK((scene.surfaces[1].material == "steel" && scene.surfaces[1].surface == "top"));
@@ -87,8 +85,11 @@ TEST_CASE("surface classes are the distinct pairs of material and surface, in th
 
 TEST_CASE("pairs that cannot meet need no row", "[scene]") {
   // The two fixed sides of the ramp never meet; rock meets rock and steel.
-  CHECK(sample::mistakes(with_rows(row("rock", "rock", 1) + "," + row("rock", "steel", 2))).empty());
-  CHECK(sample::mistakes(with_rows(row("rock", "steel", 2))).size() == 3);  // base–base, base–rock, rock–rock
+  CHECK(
+      sample::mistakes(with_rows(interface_row("rock", "rock", 1) + "," + interface_row("rock", "steel", 2)))
+          .empty());
+  CHECK(sample::mistakes(with_rows(interface_row("rock", "steel", 2))).size() ==
+        3);  // base–base, base–rock, rock–rock
 }
 
 TEST_CASE("parameters that the chosen law does not read are accepted, and told", "[scene]") {

@@ -12,7 +12,7 @@ using talus::sample::good_with;
 
 namespace {
 
-const std::string table = R"({"scale": 2, "time": [[0, 0], [2, 6]]})";
+const std::string time_table = R"({"scale": 2, "time": [[0, 0], [2, 6]]})";
 
 std::string load(const std::string& force) {
   return sample::good_but("\"force\": [1, 0]", "\"force\": " + force);
@@ -39,12 +39,12 @@ const BadPart bad_forces[] = {
      "\"tme\"",
      {"unknown key", "did you mean \"time\"", "scale, time, x, y"}},
     {"a scale that is no number", R"([{"scale": "2"}, 0])", "/loads/0/force/0/scale", "\"2\"", {"[N/m]"}},
-    {"a table that is none",
+    {"a time_table that is none",
      R"([{"time": 3}, 0])",
      "/loads/0/force/0/time",
      "3",
      {"3 is not allowed here", "[[at, value], ...]", "\"file.csv\""}},
-    {"a table of one point",
+    {"a time_table of one point",
      R"([{"time": [[0, 1]]}, 0])",
      "/loads/0/force/0/time",
      "[[0, 1]]",
@@ -59,7 +59,7 @@ const BadPart bad_forces[] = {
      "/loads/0/force/0/y/1",
      "[1, \"2\"]",
      {"two numbers"}},
-    {"a table that does not rise",
+    {"a time_table that does not rise",
      R"([0, [5, {"time": [[0, 1], [2, 2], [2, 3]]}]])",
      "/loads/0/force/1/1/time/2/0",
      "2, 3]",
@@ -72,7 +72,7 @@ const BadPart bad_forces[] = {
     {"a file without a name", R"([{"time": ""}, 0])", "/loads/0/force/0/time", "\"\"", {"\"file.csv\""}},
 };
 
-const BadPart bad_parts[] = {
+const BadPart bad_loads[] = {
     {"a surface load without a load",
      R"("surface_loads": [{"body": "block", "surface": "base"}])",
      "/surface_loads/0",
@@ -157,8 +157,8 @@ TEST_CASE("a component of a load is a number, a product of tables or a sum", "[s
   CHECK(force("[3, -4]")[0](9, {}) == 3);
   CHECK(force("[3, -4]")[1](9, {}) == -4);
   CHECK(force("[0, 1]")[0].zero());
-  CHECK(force("[" + table + ", 1]")[0](1, {}) == 6);
-  CHECK(force("[1, [5, " + table + "]]")[1](1, {}) == 11);
+  CHECK(force("[" + time_table + ", 1]")[0](1, {}) == 6);
+  CHECK(force("[1, [5, " + time_table + "]]")[1](1, {}) == 11);
   CHECK(force(R"([{"x": [[0, 1], [2, 3]], "y": [[0, 0], [1, 2]]}, 0])")[0](0, {1, 0.5}) == 2);
   CHECK(force(R"([{"scale": 5}, {"scale": 0, "time": [[0, 1], [1, 2]]}])")[0](1, {}) == 5);
   CHECK(force(R"([{"scale": 5}, {"scale": 0, "time": [[0, 1], [1, 2]]}])")[1].zero());
@@ -173,7 +173,7 @@ TEST_CASE("every mistake in a function is told with its place and what would be 
 }
 
 TEST_CASE("every mistake in loads on surfaces and in motions is told with its place", "[scene]") {
-  for (const BadPart& bad : bad_parts) {
+  for (const BadPart& bad : bad_loads) {
     DYNAMIC_SECTION(bad.requirement) {
       sample::check_alone(bad, good_with(bad.part));
     }
@@ -192,7 +192,7 @@ TEST_CASE("all mistakes of a function are told at once", "[scene]") {
 TEST_CASE("surface loads find their class and keep traction and pressure apart", "[scene]") {
   const Scene scene = sample::read(good_with(R"("surface_loads": [
       {"body": "block", "surface": "side", "pressure": )" +
-                                             table + R"(},
+                                             time_table + R"(},
       {"body": "block", "surface": "base", "traction": [0, 7], "pressure": 1}])"));
   REQUIRE(scene.surface_loads.size() == 2);
   const SurfaceLoad &side = scene.surface_loads[0], &base = scene.surface_loads[1];
@@ -227,7 +227,7 @@ TEST_CASE("prescribed motions depend on time and place, and an axis may be held 
 }
 
 TEST_CASE("the ground accelerates by functions of time", "[scene]") {
-  const Scene scene = sample::read(good_with("\"base_acceleration\": [" + table + ", -1]"));
+  const Scene scene = sample::read(good_with("\"base_acceleration\": [" + time_table + ", -1]"));
   CHECK(scene.base_acceleration[0](1, {}) == 6);
   CHECK(scene.base_acceleration[1](1, {}) == -1);
 }
@@ -250,7 +250,7 @@ TEST_CASE("tables come from files beside the scene, and the resolved scene finds
   CHECK(again.resolved == scene.resolved);
 }
 
-TEST_CASE("a mistake in a file of a table is told at the pointer with the line of the file", "[scene]") {
+TEST_CASE("a mistake in a file of a time_table is told at the pointer with the line of the file", "[scene]") {
   const Scratch scratch;
   const std::string file = scratch.write("quake.csv", "t,ax\n0,0\n1,x\n").string();
   Registry registry = sample::registry();

@@ -11,7 +11,7 @@ using talus::sample::check;
 
 namespace {
 
-const BadScene bad_scenes[] = {
+const BadScene mistaken_scenes[] = {
     {"an unknown key is named at the key, with the nearest",
      "\"end\": 5}",
      "\"end\": 5, \"sefty\": 0.1}",
@@ -229,7 +229,7 @@ const BadScene bad_scenes[] = {
 
 TEST_CASE("every mistake in sections and tables is told with its place, its pointer and what would be right",
           "[scene]") {
-  for (const BadScene& bad : bad_scenes) {
+  for (const BadScene& bad : mistaken_scenes) {
     DYNAMIC_SECTION(bad.requirement) {
       const std::string text = sample::good_but(bad.old_text, bad.new_text);
       const std::vector<Mistake> found = sample::mistakes(text);

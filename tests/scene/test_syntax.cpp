@@ -11,7 +11,7 @@ using talus::sample::check;
 
 namespace {
 
-const BadScene bad_scenes[] = {
+const BadScene bad_texts[] = {
     {"a comma too many is named",
      "\"end\": 5}",
      "\"end\": 5,}",
@@ -81,7 +81,7 @@ const BadScene bad_scenes[] = {
 }  // namespace
 
 TEST_CASE("every mistake in the text is told with its place and what would be right", "[scene]") {
-  for (const BadScene& bad : bad_scenes) {
+  for (const BadScene& bad : bad_texts) {
     DYNAMIC_SECTION(bad.requirement) {
       const std::string text = sample::good_but(bad.old_text, bad.new_text);
       const std::vector<Mistake> found = sample::mistakes(text);

@@ -11,7 +11,7 @@ using talus::sample::good_with;
 
 namespace {
 
-const BadPart bad_parts[] = {
+const BadPart bad_timings[] = {
     {"a damping that does not exist",
      R"("damping": "adaptiv")",
      "/damping",
@@ -52,7 +52,7 @@ const BadPart bad_parts[] = {
 };
 
 /// A single body, which meets nothing.
-std::string alone(const std::string& safety) {
+std::string with_safety_alone(const std::string& safety) {
   return R"({"talus": 1, "materials": {"m": {"density": 1}}, "cover": {"model": "rigid"},
       "bodies": [{"name": "a", "polygon": [[0, 0], [1, 0], [0, 1]], "material": "m"}],
       "time": {"end": 1, "safety": )" +
@@ -62,7 +62,7 @@ std::string alone(const std::string& safety) {
 }  // namespace
 
 TEST_CASE("every mistake about damping and settling is told with its place", "[scene]") {
-  for (const BadPart& bad : bad_parts) {
+  for (const BadPart& bad : bad_timings) {
     DYNAMIC_SECTION(bad.requirement) {
       sample::check_alone(bad, good_with(bad.part));
     }
@@ -96,8 +96,8 @@ TEST_CASE("settling has its own damping, and may end early and let friction slip
 }
 
 TEST_CASE("the share of the critical step is larger where no bodies meet", "[scene]") {
-  CHECK(sample::read(alone("0.9")).time.safety == 0.9);
-  const auto beyond = sample::mistakes(alone("0.91"));
+  CHECK(sample::read(with_safety_alone("0.9")).time.safety == 0.9);
+  const auto beyond = sample::mistakes(with_safety_alone("0.91"));
   REQUIRE(beyond.size() == 1);
   CHECK_THAT(beyond[0].message, Catch::Contains("0.91 is out of range") && Catch::Contains("at most 0.9"));
   CHECK(sample::mistakes(sample::good, {{{"/time/safety", "0.4"}}, false}).empty());

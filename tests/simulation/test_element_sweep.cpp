@@ -56,10 +56,6 @@ void disturb(const Model& model, MotionState& motion) {
   }
 }
 
-double size_of(Vec2 p) {
-  return std::sqrt(p.x * p.x + p.y * p.y);
-}
-
 /// Element by element from Eq. 18 as it is written, with a material evaluated one by one.
 std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const MotionState& motion,
                                double& stored) {

@@ -9,17 +9,6 @@ using namespace talus;
 
 namespace {
 
-Simulation run_to_end(const WorkingScene& text) {
-  Simulation simulation(text.read(), {});
-  while (simulation.advance()) {
-  }
-  return simulation;
-}
-
-double share(const EnergyLedger& ledger) {
-  return std::abs(ledger.residual) / ledger.throughput;
-}
-
 const std::string below = R"("surfaces": {"below": [0]})";
 
 }  // namespace
@@ -35,7 +24,7 @@ TEST_CASE("a body sinks into its penalty support by its weight over the stiffnes
   CHECK(simulation.body_motion(0).displacement.x == Approx(0).margin(1e-15));
   // λ/2 ∫ u² over 2 m.
   CHECK(simulation.ledger().contact == Approx(1e9 * 2.3e-5 * 2.3e-5).epsilon(1e-8));
-  CHECK(share(simulation.ledger()) < 1e-3);
+  CHECK(residual_share(simulation.ledger()) < 1e-3);
 }
 
 TEST_CASE("an axis without prescription is free", "[simulation][loads]") {

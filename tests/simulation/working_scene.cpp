@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace talus {
 
@@ -32,6 +33,17 @@ Scene WorkingScene::read(Registry& registry) const {
           "bodies": [{}], "monitors": [], "time": {}, "output": {}}})",
       gravity, material, cover, law, interface, rest, bodies, time, output);
   return read_scene_text(text, "working.json", registry);
+}
+
+Simulation run_to_end(const WorkingScene& text) {
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  return simulation;
+}
+
+double residual_share(const EnergyLedger& ledger) {
+  return std::abs(ledger.residual) / ledger.throughput;
 }
 
 }  // namespace talus

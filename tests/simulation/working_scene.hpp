@@ -2,6 +2,7 @@
 
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
 
 #include <string>
 
@@ -31,5 +32,10 @@ struct WorkingScene {
 
   Scene read(Registry& registry = shipped_registry()) const;
 };
+
+Simulation run_to_end(const WorkingScene& text);
+
+/// What the energy balance misses, as a share of the energy that went through it.
+double residual_share(const EnergyLedger& ledger);
 
 }  // namespace talus

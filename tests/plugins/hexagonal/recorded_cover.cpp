@@ -7,12 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace talus::covered {
 namespace {
 
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 
 double cross(Point origin, Point p, Point q) {
   return (p.x - origin.x) * (q.y - origin.y) - (p.y - origin.y) * (q.x - origin.x);

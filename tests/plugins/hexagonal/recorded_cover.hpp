@@ -35,6 +35,8 @@ class DrawnBody {
   std::vector<std::uint32_t> ring_start_{0}, line_start_{0};
 };
 
+constexpr double merge = 0, mass_scale = 1, keep = 2;  ///< what becomes of slivers
+
 struct Settings {
   double size;
   Point vertex{0, 0};  ///< of the lattice, in the coordinates that the body was drawn in

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 using namespace talus::covered;
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 
 using Random = std::mt19937_64;
 

@@ -3,13 +3,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numbers>
 
 using namespace talus::covered;
 
 namespace {
 
-constexpr double keep = 2;
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 const double row = std::sqrt(3.0) / 2;  // height of a row of triangles of size 1
 
 struct Counts {

@@ -8,13 +8,12 @@ using namespace talus::covered;
 
 namespace {
 
-constexpr double merge = 0, mass_scale = 1, keep = 2;
-const double row = std::sqrt(3.0) / 2;
-const double full = row;  // ∫ w dA over a hexagon of size 1, m²
+const double row_height = std::sqrt(3.0) / 2;
+const double full = row_height;  // ∫ w dA over a hexagon of size 1, m²
 
 /// Reaches beyond the lattice lines on every side.
 DrawnBody overhanging(double e = 1e-6) {
-  return DrawnBody({{{-e, -e}, {4 + e, -e}, {4 + e, 4 * row + e}, {-e, 4 * row + e}}});
+  return DrawnBody({{{-e, -e}, {4 + e, -e}, {4 + e, 4 * row_height + e}, {-e, 4 * row_height + e}}});
 }
 
 std::size_t poor_patches(const RecordedCover& cover, double share) {
@@ -70,15 +69,15 @@ TEST_CASE("slivers can be left alone", "[plugins][hexagonal]") {
 }
 
 TEST_CASE("a patch follows its own part of the body only", "[plugins][hexagonal]") {
-  // Cut along a line 1e-6 above the lattice: what the upper part has of the row below is a sliver, right
-  // above good elements of the other part.
-  const DrawnBody body({{{0, 0}, {4, 0}, {4, 4 * row}, {0, 4 * row}}},
-                       {{{-1, 2 * row - 1e-6}, {5, 2 * row - 1e-6}}});
+  // Cut along a line 1e-6 above the lattice: what the upper part has of the row_height below is a sliver,
+  // right above good elements of the other part.
+  const DrawnBody body({{{0, 0}, {4, 0}, {4, 4 * row_height}, {0, 4 * row_height}}},
+                       {{{-1, 2 * row_height - 1e-6}, {5, 2 * row_height - 1e-6}}});
   const RecordedCover cover = lay(body, {1, {0, 0}, 0, merge, 0.1});
   check_cover(body, cover, 1);
   REQUIRE(cover.parts() == 2);
 
-  const double middle = 2 * row - body.centroid().y - 1e-6;
+  const double middle = 2 * row_height - body.centroid().y - 1e-6;
   std::vector<int> upper(cover.stars.size(), -1);
   for (const auto& element : cover.elements) {
     const auto m = moments_of(element.rings);
@@ -89,8 +88,8 @@ TEST_CASE("a patch follows its own part of the body only", "[plugins][hexagonal]
     for (const std::uint32_t to : one.to) CHECK(upper[to] == upper[one.patch]);
     of_upper += upper[one.patch] == 1 ? 1 : 0;
   }
-  // The five vertices of the row below that the upper part has nothing of but the sliver (at −0.5 … 4.5,
-  // six).
+  // The five vertices of the row_height below that the upper part has nothing of but the sliver (at −0.5
+  // … 4.5, six).
   CHECK(of_upper >= 5);
 }
 

@@ -27,11 +27,10 @@ class DistributedContact {
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       const BodyPair& pair = batch.pairs[i];
-      if (pair.plain_corners == 0 || pair.contact_count > 1 || !fits_lanes(law)) {
-        one_by_one(i);
-      } else if (pair.plain_corners <= 4) {
+      const bool plain = pair.plain_corners != 0 && pair.contact_count <= 1 && fits_lanes(law);
+      if (plain && pair.plain_corners <= 4) {
         quadrilaterals_.add(i);
-      } else if (pair.plain_corners <= 8) {
+      } else if (plain && pair.plain_corners <= 8) {
         octagons_.add(i);
       } else {
         one_by_one(i);
