@@ -29,9 +29,9 @@ class DistributedContact {
       const BodyPair& pair = batch.pairs[i];
       const bool plain = pair.plain_corners != 0 && pair.contact_count <= 1 && fits_lanes(law);
       if (plain && pair.plain_corners <= 4) {
-        quadrilaterals_.add(i);
+        quadrilaterals_.add(batch, i);
       } else if (plain && pair.plain_corners <= 8) {
-        octagons_.add(i);
+        octagons_.add(batch, i);
       } else {
         one_by_one(i);
       }

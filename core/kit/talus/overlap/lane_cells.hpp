@@ -5,28 +5,22 @@
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
 
-/// Loads at the corners of both pieces of a pair, N/m.
-template <int corners>
-struct LaneLoads {
-  Packs2 at[2][corners + 1];  ///< entry `corners` is added to entry 0 in the end
-
-  void clear() {
-    for (auto& piece : at) {
-      for (Packs2& load : piece) load = {0.0, 0.0};
-    }
-  }
-  void add(int piece, int corner, Pack size, Packs2 direction) {
-    at[piece][corner] = at[piece][corner] + size * direction;
-  }
-};
-
 /// A stretch of one slave side in the cell of one master side (Fig. 5).
 struct LaneSegment {
+  int master_side, slave_side;
   Mask valid;
   Pack start, end;              ///< along the slave side, 0 to 1
   Pack start_lever, end_lever;  ///< along the master side, 0 to 1
   Pack start_load, end_load;    ///< N/m, trapezoid load as two end loads
   Pack length, share;           ///< m; m², its part of the area below it
+};
+
+/// The cell of one master side.
+struct LaneCell {
+  int side;
+  Pack load;   ///< N/m, normal
+  Pack lever;  ///< where on the side, 0 to 1
+  Pack share;  ///< m², sum over its segments
 };
 
 /// Cells of one piece as master, the other as slave (§3.2.1), in closed form by Green's theorem. With s along
@@ -39,12 +33,10 @@ struct LaneSegment {
 template <int corners>
 class LaneCells {
  public:
-  Pack load[corners];                     ///< N/m on the master side, normal
-  Pack lever[corners];                    ///< where on the side, 0 to 1
-  Pack share[corners];                    ///< m², sum over the segments
-  LaneSegment segment[corners][corners];  ///< [master side][slave side], where `used`
-  bool used[corners][corners];
-  bool side_used[corners];
+  LaneCell cell[corners];
+  int cell_count;
+  LaneSegment segment[corners * corners];  ///< cell after cell
+  int segment_start[corners + 1];          ///< [cell]
   Mask deep;
   Pack stored, penetration;       ///< J/m, m
   Pack area, moment_x, moment_y;  ///< m², m³: of the overlap, first moments
@@ -55,76 +47,90 @@ class LaneCells {
     deep = simd::nowhere();
     stored = penetration = area = moment_x = moment_y = 0.0;
     arc = force = {0.0, 0.0};
-    Pack left[corners + 1], right[corners + 1];
-    for (int k = 0; k < corners; ++k) {
-      if (k == 0) measure_division(master, 0, slave, left);
-      measure_division(master, k + 1, slave, right);
-      find_cell(master, k, slave, left, right, stiffness);
-      for (int j = 0; j <= corners; ++j) left[j] = right[j];
+    cell_count = segment_count_ = 0;
+    measure(master, slave);
+    choose_meetings(master, slave);
+    for (int i = 0; i < meeting_count_;) {
+      const int side = meeting_[i].master_side;
+      Integrals sum{0.0, 0.0, 0.0};
+      segment_start[cell_count] = segment_count_;
+      cell[cell_count].side = side;
+      cell[cell_count].share = 0.0;
+      for (; i < meeting_count_ && meeting_[i].master_side == side; ++i)
+        cut_out(master, slave, meeting_[i], stiffness, sum);
+      if (segment_count_ > segment_start[cell_count]) close_cell(master, stiffness, sum);
     }
+    segment_start[cell_count] = segment_count_;
   }
 
  private:
-  /// Signed height over the line of division at a master corner: positive on the side of side k.
-  static void measure_division(const LanePiece<corners>& master, int k, const LanePiece<corners>& slave,
-                               Pack* height) {
-    const Packs2 along =
-        (k == 0 || k == corners ? master.last_tangent : master.tangent[k - 1]) + master.tangent[k];
-    for (int j = 0; j < corners; ++j) height[j] = simd::dot(along, slave.at[j] - master.at[k]);
-    height[corners] = height[0];
-  }
-
-  void find_cell(const LanePiece<corners>& master, int k, const LanePiece<corners>& slave, const Pack* left,
-                 const Pack* right, Pack stiffness) {
-    load[k] = lever[k] = share[k] = 0.0;
-    side_used[k] = false;
-    for (int j = 0; j < corners; ++j) used[k][j] = false;
-    Pack depth[corners + 1];
-    Mask behind = simd::nowhere();
-    for (int j = 0; j < corners; ++j) {
-      depth[j] = master.depth(k, slave.at[j]);
-      behind = behind | (depth[j] > 0.0);
-    }
-    if (!simd::any(behind & master.real[k])) return;
-    depth[corners] = depth[0];
-
-    Integrals sum{0.0, 0.0, 0.0};
-    for (int j = 0; j < corners; ++j) {
-      const Mask possible = master.real[k] & slave.real[j] & ((depth[j] > 0.0) | (depth[j + 1] > 0.0)) &
-                            ((left[j] >= 0.0) | (left[j + 1] >= 0.0)) &
-                            ((right[j] < 0.0) | (right[j + 1] < 0.0));
-      if (simd::any(possible)) cut_out(master, k, slave, j, depth, left, right, possible, stiffness, sum);
-    }
-    close_cell(master, k, stiffness, sum);
-  }
-
+  /// A slave side that may reach into the cell of a master side, in these lanes.
+  struct Meeting {
+    int master_side, slave_side;
+    unsigned possible;
+  };
   struct Integrals {
     Pack area, along, depth;  ///< −∫ 1, s, d dA
   };
 
-  /// The part of slave side j in cell k, by its parameters (Liang–Barsky).
-  void cut_out(const LanePiece<corners>& master, int k, const LanePiece<corners>& slave, int j,
-               const Pack* depth, const Pack* left, const Pack* right, Mask possible, Pack stiffness,
-               Integrals& sum) {
-    const Pack first = depth[j], last = depth[j + 1];
-    const Pack surface = first / (first - last), before = left[j] / (left[j] - left[j + 1]),
-               after = right[j] / (right[j] - right[j + 1]);
-    const Mask begins_in = first > 0.0, ends_in = last > 0.0;
-    const Mask begins_right_of = left[j] >= 0.0, ends_right_of = left[j + 1] >= 0.0;
-    const Mask begins_left_of = right[j] < 0.0, ends_left_of = right[j + 1] < 0.0;
+  /// Depths of the slave's corners behind the master's sides, and their heights over the line of division at
+  /// each master corner, positive on the side of the side that starts there.
+  void measure(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
+    for (int k = 0; k < corners; ++k) {
+      const Packs2 along = (k == 0 ? master.last_tangent : master.tangent[k - 1]) + master.tangent[k];
+      for (int j = 0; j < corners; ++j) {
+        const Packs2 from = slave.at[j] - master.at[k];
+        depth_[k][j] = simd::cross(master.tangent[k], from);
+        height_[k][j] = simd::dot(along, from);
+        behind_[k][j] = simd::bits(depth_[k][j] > 0.0);
+        right_[k][j] = simd::bits(height_[k][j] >= 0.0);
+      }
+      depth_[k][corners] = depth_[k][0];
+      height_[k][corners] = height_[k][0];
+      behind_[k][corners] = behind_[k][0];
+      right_[k][corners] = right_[k][0];
+    }
+    for (int j = 0; j <= corners; ++j) {
+      height_[corners][j] = height_[0][j];
+      right_[corners][j] = right_[0][j];
+    }
+  }
 
-    Pack t0 = simd::select(begins_in, 0.0, surface), t1 = simd::select(ends_in, 1.0, surface);
-    const Mask enters_left = !begins_right_of & (before >= t0);
+  void choose_meetings(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
+    meeting_count_ = 0;
+    for (int k = 0; k < corners; ++k) {
+      for (int j = 0; j < corners; ++j) {
+        const unsigned possible = master.real[k] & slave.real[j] & (behind_[k][j] | behind_[k][j + 1]) &
+                                  (right_[k][j] | right_[k][j + 1]) &
+                                  ~(right_[k + 1][j] & right_[k + 1][j + 1]);
+        meeting_[meeting_count_] = {k, j, possible};
+        meeting_count_ += possible != 0 ? 1 : 0;
+      }
+    }
+  }
+
+  /// The part of a slave side in a cell, by its parameters (Liang–Barsky).
+  void cut_out(const LanePiece<corners>& master, const LanePiece<corners>& slave, const Meeting& meeting,
+               Pack stiffness, Integrals& sum) {
+    const int k = meeting.master_side, j = meeting.slave_side;
+    const Pack first = depth_[k][j], last = depth_[k][j + 1];
+    const Pack left = height_[k][j], left_last = height_[k][j + 1];
+    const Pack right = height_[k + 1][j], right_last = height_[k + 1][j + 1];
+    const Pack surface = first / (first - last), before = left / (left - left_last),
+               after = right / (right - right_last);
+
+    Pack t0 = simd::select(first > 0.0, 0.0, surface), t1 = simd::select(last > 0.0, 1.0, surface);
+    const Mask enters_left = (left < 0.0) & (before >= t0);
     t0 = simd::select(enters_left, before, t0);
-    const Mask enters_right = !begins_left_of & (after >= t0);
+    const Mask enters_right = (right >= 0.0) & (after >= t0);
     t0 = simd::select(enters_right, after, t0);
-    const Mask leaves_left = !ends_right_of & (before <= t1);
+    const Mask leaves_left = (left_last < 0.0) & (before <= t1);
     t1 = simd::select(leaves_left, before, t1);
-    const Mask leaves_right = !ends_left_of & (after <= t1);
+    const Mask leaves_right = (right_last >= 0.0) & (after <= t1);
     t1 = simd::select(leaves_right, after, t1);
 
     // Elsewhere the parameters may be no numbers at all.
-    Mask valid = possible & (t0 <= t1);
+    Mask valid = simd::mask_of(meeting.possible) & (t0 <= t1);
     t0 = simd::only_where(valid, t0);
     t1 = simd::only_where(valid, t1);
 
@@ -155,8 +161,9 @@ class LaneCells {
     sum.depth = sum.depth + simd::only_where(valid, run * sixth * (d0 * d0 + d0 * d1 + d1 * d1) +
                                                         in_area * d0 * third - out_area * d1 * third);
 
-    LaneSegment& at = segment[k][j];
-    used[k][j] = side_used[k] = true;
+    LaneSegment& at = segment[segment_count_++];
+    at.master_side = k;
+    at.slave_side = j;
     at.valid = valid;
     at.start = t0;
     at.end = t1;
@@ -167,26 +174,32 @@ class LaneCells {
     const Pack scale = stiffness * at.length * sixth;
     at.start_load = scale * (d0 + d0 + d1);
     at.end_load = scale * (d1 + d1 + d0);
-    share[k] = share[k] + at.share;
+    cell[cell_count].share = cell[cell_count].share + at.share;
     arc = arc + simd::only_where(valid, t1 - t0) * span;
     penetration = simd::max(penetration, simd::only_where(valid, simd::max(d0, d1)));
   }
 
-  void close_cell(const LanePiece<corners>& master, int k, Pack stiffness, const Integrals& sum) {
-    if (!side_used[k]) return;
-    const Pack cell = -sum.area;
-    const Mask some = cell > 0.0;
-    deep = deep | (cell < -1e-12 * master.length[k] * master.clear_depth);
+  void close_cell(const LanePiece<corners>& master, Pack stiffness, const Integrals& sum) {
+    LaneCell& now = cell[cell_count++];
+    const int k = now.side;
+    const Pack size = -sum.area;
+    const Mask some = size > 0.0;
+    deep = deep | (size < -1e-12 * master.length[k] * master.clear_depth);
     const Pack along = simd::only_where(some, -sum.along), depth = simd::only_where(some, -sum.depth);
-    load[k] = simd::only_where(some, stiffness * cell);
-    lever[k] = simd::only_where(some, -sum.along / (cell * master.length[k]));
+    now.load = simd::only_where(some, stiffness * size);
+    now.lever = simd::only_where(some, -sum.along / (size * master.length[k]));
     stored = stored + stiffness * depth;
-    area = area + simd::only_where(some, cell);
+    area = area + simd::only_where(some, size);
     const Packs2 t = master.tangent[k];  // inwards is (−t.y, t.x)
-    moment_x = moment_x + simd::only_where(some, cell) * master.at[k].x + along * t.x - depth * t.y;
-    moment_y = moment_y + simd::only_where(some, cell) * master.at[k].y + along * t.y + depth * t.x;
-    force = force + load[k] * master.normal(k);
+    moment_x = moment_x + simd::only_where(some, size) * master.at[k].x + along * t.x - depth * t.y;
+    moment_y = moment_y + simd::only_where(some, size) * master.at[k].y + along * t.y + depth * t.x;
+    force = force + now.load * master.normal(k);
   }
+
+  Pack depth_[corners][corners + 1], height_[corners + 1][corners + 1];
+  unsigned behind_[corners][corners + 1], right_[corners + 1][corners + 1];
+  Meeting meeting_[corners * corners + 1];
+  int meeting_count_ = 0, segment_count_ = 0;
 };
 
 }  // namespace TALUS_SIMD_LEVEL

@@ -3,6 +3,8 @@
 #include <talus/contact_model.hpp>
 #include <talus/simd/pack.hpp>
 
+#include <algorithm>
+
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
 
@@ -11,29 +13,32 @@ using simd::Mask;
 using simd::Pack;
 using simd::Packs2;
 
-/// One piece in each lane, as the host's arrays know it. A piece with fewer corners than the widest repeats
-/// its first: sides without length that own nothing.
+/// One piece in each lane, as the host's arrays know it. A piece with fewer corners than the widest begins
+/// again after its last: sides that own nothing.
 struct LanePieces {
-  const BoundaryCorner* first[lanes];
-  std::int32_t size[lanes];
-  std::int32_t start[lanes];  ///< corner that is called 0 here
-  alignas(64) double offset_x[lanes], offset_y[lanes], clear_depth[lanes];
+  const BoundaryCorner *first[lanes], *end[lanes];
+  const BoundaryCorner* start[lanes];  ///< corner that is called 0 here
+  alignas(64) double offset_x[lanes], offset_y[lanes], clear_depth[lanes], size[lanes];
 
-  void set(int lane, const Boundaries& boundaries, std::uint32_t piece, double x, double y) {
-    const std::uint32_t begin = boundaries.piece_start[piece];
-    first[lane] = boundaries.corner + begin;
-    size[lane] = static_cast<std::int32_t>(boundaries.piece_start[piece + 1] - begin);
-    start[lane] = 0;
+  void set(int lane, const Boundaries& boundaries, std::uint32_t piece, double x, double y,
+           std::uint32_t from) {
+    first[lane] = boundaries.corner + boundaries.piece_start[piece];
+    end[lane] = boundaries.corner + boundaries.piece_start[piece + 1];
+    start[lane] = first[lane] + from;
     offset_x[lane] = x;
     offset_y[lane] = y;
     clear_depth[lane] = boundaries.clear_depth[piece];
+    size[lane] = static_cast<double>(end[lane] - first[lane]);
   }
 
-  /// Corner i of each lane.
-  void corner(std::int32_t i, const BoundaryCorner** result) const {
+  int corners_in(int lane) const { return static_cast<int>(end[lane] - first[lane]); }
+  int start_in(int lane) const { return static_cast<int>(start[lane] - first[lane]); }
+
+  /// From each corner to the next.
+  void advance(const BoundaryCorner** corner) const {
     for (int lane = 0; lane < lanes; ++lane) {
-      const std::int32_t at = start[lane] + (i < size[lane] ? i : 0);
-      result[lane] = first[lane] + (at >= size[lane] ? at - size[lane] : at);
+      const BoundaryCorner* next = corner[lane] + 1;
+      corner[lane] = next == end[lane] ? first[lane] : next;
     }
   }
 };
@@ -50,20 +55,27 @@ inline void read_rows(const BoundaryCorner* const* corner, bool second_half, Pac
 template <int corners>
 struct LaneShape {
   Packs2 at[corners + 1], tangent[corners + 1];
-  Mask real[corners];
+  unsigned real[corners];  ///< lanes that have this side, as bits
 
   void read(const LanePieces& pieces) {
+    read(pieces, [](int, const BoundaryCorner* const*) {});
+  }
+
+  /// Hands each corner of the lanes to more(i, corner), too.
+  template <class More>
+  void read(const LanePieces& pieces, const More& more) {
     const Packs2 offset{simd::load(pieces.offset_x), simd::load(pieces.offset_y)};
-    alignas(64) double size[lanes];
-    for (int lane = 0; lane < lanes; ++lane) size[lane] = pieces.size[lane];
+    const Pack size = simd::load(pieces.size);
+    const BoundaryCorner* corner[lanes];
+    std::copy(pieces.start, pieces.start + lanes, corner);
     for (int i = 0; i < corners; ++i) {
-      const BoundaryCorner* corner[lanes];
-      pieces.corner(i, corner);
       Pack row[4];
       read_rows(corner, false, row);
       at[i] = Packs2{row[0], row[1]} + offset;
       tangent[i] = {row[2], row[3]};
-      real[i] = Pack(static_cast<double>(i)) < simd::load(size);
+      real[i] = simd::bits(Pack(static_cast<double>(i)) < size);
+      more(i, corner);
+      pieces.advance(corner);
     }
     at[corners] = at[0];
     tangent[corners] = tangent[0];
@@ -82,25 +94,19 @@ struct LanePiece : LaneShape<corners> {
   Mask degenerate;  ///< has a side without length
 
   void read(const LanePieces& pieces) {
-    LaneShape<corners>::read(pieces);
     degenerate = simd::nowhere();
-    const BoundaryCorner* corner[lanes];
-    Pack row[4];
-    for (int i = 0; i < corners; ++i) {
-      pieces.corner(i, corner);
+    LaneShape<corners>::read(pieces, [&](int i, const BoundaryCorner* const* corner) {
+      Pack row[4];
       read_rows(corner, true, row);
       velocity[i] = {row[0], row[1]};
       length[i] = row[2];
       inverse_length[i] = 1.0 / length[i];
       degenerate = degenerate | (length[i] <= 0.0);
-    }
+    });
     velocity[corners] = velocity[0];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const std::int32_t start = pieces.start[lane];
-      corner[lane] = pieces.first[lane] + (start == 0 ? pieces.size[lane] : start) - 1;
-    }
-    read_rows(corner, false, row);
-    last_tangent = {row[2], row[3]};
+    last_tangent = this->tangent[2];  // no piece has fewer corners
+    for (int i = 3; i < corners; ++i)
+      last_tangent = simd::select(simd::mask_of(this->real[i]), this->tangent[i], last_tangent);
     clear_depth = simd::load(pieces.clear_depth);
   }
 

@@ -57,6 +57,23 @@ inline void gather_rows(const double* const* from, Pack* to) {
   to[2] = _mm512_permutex2var_pd(even, high, more_even);
   to[3] = _mm512_permutex2var_pd(odd, high, more_odd);
 }
+/// The way back: to[lane][i] gets from[i] of that lane.
+inline void scatter_rows(const Pack* from, double* const* to) {
+  const __m512d even = _mm512_maskz_unpacklo_pd(0xFF, from[0].value, from[1].value),
+                odd = _mm512_maskz_unpackhi_pd(0xFF, from[0].value, from[1].value),
+                more_even = _mm512_maskz_unpacklo_pd(0xFF, from[2].value, from[3].value),
+                more_odd = _mm512_maskz_unpackhi_pd(0xFF, from[2].value, from[3].value);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  const auto two = [&](int lane, __m512d rows) {  // of this lane and the one four further on
+    _mm256_storeu_pd(to[lane], _mm512_maskz_extractf64x4_pd(0xFF, rows, 0));
+    _mm256_storeu_pd(to[lane + 4], _mm512_maskz_extractf64x4_pd(0xFF, rows, 1));
+  };
+  two(0, _mm512_permutex2var_pd(even, low, more_even));
+  two(1, _mm512_permutex2var_pd(odd, low, more_odd));
+  two(2, _mm512_permutex2var_pd(even, high, more_even));
+  two(3, _mm512_permutex2var_pd(odd, high, more_odd));
+}
 inline Pack operator+(Pack p, Pack q) {
   return _mm512_add_pd(p.value, q.value);
 }
@@ -109,6 +126,9 @@ inline Pack select(Mask m, Pack yes, Pack no) {
 inline unsigned bits(Mask m) {
   return m.bits;
 }
+inline Mask mask_of(unsigned bits) {
+  return {static_cast<__mmask8>(bits)};
+}
 
 #elif defined(__AVX2__)
 
@@ -140,6 +160,17 @@ inline void gather_rows(const double* const* from, Pack* to) {
   to[1] = _mm256_permute2f128_pd(odd, more_odd, 0x20);
   to[2] = _mm256_permute2f128_pd(even, more_even, 0x31);
   to[3] = _mm256_permute2f128_pd(odd, more_odd, 0x31);
+}
+/// The way back: to[lane][i] gets from[i] of that lane.
+inline void scatter_rows(const Pack* from, double* const* to) {
+  const __m256d even = _mm256_unpacklo_pd(from[0].value, from[1].value),
+                odd = _mm256_unpackhi_pd(from[0].value, from[1].value),
+                more_even = _mm256_unpacklo_pd(from[2].value, from[3].value),
+                more_odd = _mm256_unpackhi_pd(from[2].value, from[3].value);
+  _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(even, more_even, 0x20));
+  _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(odd, more_odd, 0x20));
+  _mm256_storeu_pd(to[2], _mm256_permute2f128_pd(even, more_even, 0x31));
+  _mm256_storeu_pd(to[3], _mm256_permute2f128_pd(odd, more_odd, 0x31));
 }
 inline Pack operator+(Pack p, Pack q) {
   return _mm256_add_pd(p.value, q.value);
@@ -193,6 +224,10 @@ inline Pack select(Mask m, Pack yes, Pack no) {
 inline unsigned bits(Mask m) {
   return static_cast<unsigned>(_mm256_movemask_pd(m.value));
 }
+inline Mask mask_of(unsigned bits) {
+  const __m256i bit = _mm256_setr_epi64x(1, 2, 4, 8);
+  return {_mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), bit), bit))};
+}
 
 #else
 
@@ -216,6 +251,10 @@ inline void store(Pack p, double* to) {
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
   for (int i = 0; i < 4; ++i) to[i] = from[0][i];
+}
+/// The way back: to[lane][i] gets from[i] of that lane.
+inline void scatter_rows(const Pack* from, double* const* to) {
+  for (int i = 0; i < 4; ++i) to[0][i] = from[i].value;
 }
 inline Pack operator+(Pack p, Pack q) {
   return p.value + q.value;
@@ -268,6 +307,9 @@ inline Pack select(Mask m, Pack yes, Pack no) {
 /// Bit i says lane i.
 inline unsigned bits(Mask m) {
   return m.value ? 1 : 0;
+}
+inline Mask mask_of(unsigned bits) {
+  return {bits != 0};
 }
 
 #endif
