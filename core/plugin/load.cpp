@@ -39,7 +39,7 @@ boost::dll::shared_library open_for_good(const fs::path& file) {
 /// The same library built for the best instruction set up to `level`: in a folder of that name beside it.
 fs::path variant_of(const fs::path& file, SimdLevel level) {
   for (int i = static_cast<int>(level); i > 0; --i) {
-    const fs::path variant = file.parent_path() / name_of(static_cast<SimdLevel>(i)) / file.filename();
+    fs::path variant = file.parent_path() / name_of(static_cast<SimdLevel>(i)) / file.filename();
     std::error_code problem;
     if (fs::is_regular_file(variant, problem)) return variant;
   }
