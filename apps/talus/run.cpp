@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace talus {
 
@@ -97,10 +98,11 @@ int run_command(const Words& words) {
   order.folder = out.empty() ? std::filesystem::path("out") / file.stem() : std::filesystem::path(out);
 
   Registry registry = load_registry(usage, *given);
-  const Scene scene = read_scene_of(file, registry, order.overrides, given->count("allow-plugins") != 0);
-  for (const std::string& warning : scene.warnings) print_warning(warning);
+  Scene read = read_scene_of(file, registry, order.overrides, given->count("allow-plugins") != 0);
+  for (const std::string& warning : read.warnings) print_warning(warning);
   order.scene_hash = hash_of_file(file);
-  Simulation simulation(scene, order.settings);
+  Simulation simulation(std::move(read), order.settings);
+  const Scene& scene = simulation.scene();
   prepare_output_folder(order.folder, given->count("overwrite") != 0);
 
   order.interrupted = watch_for_interrupts();

@@ -7,10 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus {
-Simulation::Simulation(const Scene& scene, const RunSettings& settings)
-    : state_(std::make_unique<State>(scene, settings)) {}
+Simulation::Simulation(Scene scene, const RunSettings& settings)
+    : state_(std::make_unique<State>(std::move(scene), settings)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 

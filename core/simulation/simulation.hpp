@@ -86,7 +86,7 @@ struct Geometry {
 /// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.
 class Simulation {
  public:
-  Simulation(const Scene& scene, const RunSettings& settings);
+  Simulation(Scene scene, const RunSettings& settings);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 

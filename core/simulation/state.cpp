@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -21,8 +22,8 @@ constexpr double initial_overlap = 1e-6;
 
 }  // namespace
 
-Simulation::State::State(const Scene& scene_in, const RunSettings& settings_in)
-    : scene(scene_in),
+Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
+    : scene(std::move(scene_in)),
       settings(settings_in),
       stage(settings_of(scene)),
       workers(settings.threads),

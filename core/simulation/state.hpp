@@ -18,7 +18,7 @@ namespace talus {
 
 /// Everything a simulation holds.
 struct Simulation::State {
-  State(const Scene& scene, const RunSettings& settings);
+  State(Scene scene, const RunSettings& settings);
 
   Scene scene;
   RunSettings settings;

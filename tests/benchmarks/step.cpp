@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus::benchmarks {
@@ -30,8 +31,6 @@ struct Stack {
 void measure(benchmark::State& state, const Load& load, double warm_up, int threads) {
   Scene scene = scene_of(load);
   scene.resolved.clear();
-  forget_peak();
-  const std::size_t before_model = resident_memory();
   double blocks = 0;
   for (const SceneBody& body : scene.bodies) blocks += body.fixed ? 0 : 1;
   const double dt = Simulation(scene, {}).automatic_dt();
@@ -39,7 +38,9 @@ void measure(benchmark::State& state, const Load& load, double warm_up, int thre
   const double steps = std::ceil(block_steps_per_iteration / blocks);
   scene.output.history = steps * dt;
 
-  Simulation simulation(scene, {.threads = threads});
+  forget_peak();
+  const std::size_t before_model = resident_memory();
+  Simulation simulation(std::move(scene), {.threads = threads});
   while (simulation.time() < warm_up) simulation.advance();
   const std::uint64_t before = simulation.summary().steps;
   for (auto iteration : state) {
