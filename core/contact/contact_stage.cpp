@@ -42,8 +42,10 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
     : law_(nullptr, noop),
       workers_(workers),
       kernels_(kernels::block_kernels(level)),
-      skin_(neighbour_skin ? skin_share * model.mean_width : 0),
-      search_(model) {
+      near_(skin_share * model.mean_width),
+      skin_(neighbour_skin ? near_ : 0),
+      search_(model),
+      lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()) {
   for (const Body& body : model.bodies) {
     fixed_.push_back(body.kinematics == Kinematics::fixed);
     plain_corners_.push_back(plain_corners(model, body));
@@ -83,17 +85,34 @@ double ContactStage::master_share(std::uint32_t a, std::uint32_t b) const {
   return priority_[a] > priority_[b] ? 1 : 0;
 }
 
-void ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {
-  if (!law_) return;
-  // Both bodies of a pair may have moved; the boxes leave skin/2 to each.
+bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {
+  if (!law_) return false;
+  // Both bodies of a pair may have moved; the boxes leave half of what is near to each.
   slack_ -= travelled;
   travelled_ += travelled;
-  if (slack_ > 0) return;
-  search_.find(model, motion, std::max(skin_, rounding * model.mean_width), candidates_);
+  const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
+  if (!due && !every_step) return false;
+  const double rounded = rounding * model.mean_width;
+  if (due) {
+    search_.find(model, motion, std::max(near_, rounded), candidates_);
+    note_neighbours(model);
+    slack_ = near_ / 2;
+  }
+  if (every_step) search_.find(model, motion, rounded, candidates_);
   rebuild_pairs(model);
   travelled_ = 0;
-  slack_ = skin_ / 2;
   ++searches_;
+  return due;
+}
+
+void ContactStage::note_neighbours(const Model& model) {
+  lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
+  for (const Candidate& candidate : candidates_) {
+    const std::uint32_t a = candidate.body_a, b = candidate.body_b;
+    if (fixed_[a] != 0 || fixed_[b] != 0) continue;
+    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], model.bodies[b].contact_mass);
+    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], model.bodies[a].contact_mass);
+  }
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {

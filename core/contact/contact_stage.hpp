@@ -35,8 +35,12 @@ class ContactStage {
   void set_interfaces(const std::vector<std::vector<double>>& values);
 
   /// Seeks the candidates anew when something may have moved through the skin since the last search.
-  /// `travelled` is how far the fastest corner can have moved since the last call, m.
-  void find_pairs(const Model& model, const MotionState& motion, double travelled);
+  /// `travelled` is how far the fastest corner can have moved since the last call, m. True when who is near
+  /// whom was found anew: at the same times whether a skin is used or not.
+  bool find_pairs(const Model& model, const MotionState& motion, double travelled);
+
+  /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.
+  std::span<const double> lightest_neighbours() const { return lightest_neighbour_; }
 
   struct Conditions {
     double dt;  ///< s, from t_{n-1} to t_n
@@ -56,6 +60,7 @@ class ContactStage {
   std::span<const double> history() const { return history_; }
 
  private:
+  void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
   void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
@@ -81,13 +86,15 @@ class ContactStage {
   std::vector<double> clear_depth_;           ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
-  double skin_;
-  double slack_ = -1;  ///< m left before the next search; negative: search at once
+  double near_;        ///< m, up to which bodies are neighbours
+  double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
+  double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
   std::uint64_t searches_ = 0;
   std::uint32_t history_doubles_ = 0;
 
   NeighbourSearch search_;
   std::vector<Candidate> candidates_;
+  std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
   std::vector<BodyPair> pairs_, old_pairs_;
   std::vector<PiecePair> piece_pairs_;
   std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body

@@ -99,10 +99,10 @@ double Simulation::time() const {
   return state_->time;
 }
 double Simulation::critical_dt() const {
-  return state_->critical.dt;
+  return state_->votes.anyhow().dt;
 }
 double Simulation::automatic_dt() const {
-  return automatic_step(state_->critical, state_->scene.time.safety);
+  return automatic_step(state_->votes.anyhow(), state_->scene.time.safety);
 }
 const EnergyLedger& Simulation::ledger() const {
   return state_->ledger.ledger();

@@ -107,7 +107,7 @@ class Simulation {
   double time() const;             ///< s
   bool history_due() const;        ///< whether the present output time is one of the history
   bool frame_due() const;          ///< whether it is one of the frames
-  double critical_dt() const;      ///< s, bound over strain modes and contacts
+  double critical_dt() const;      ///< s, bound over strain modes and contacts, whoever meets whom
   double automatic_dt() const;     ///< s, what "auto" takes as long as nothing moves too fast for it
   std::string state_hash() const;  ///< of displacements, velocities and contact history
 

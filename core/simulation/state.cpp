@@ -35,7 +35,8 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       deformation(scene, model, workers),
       loads(scene, stage, model),
       relaxation(model),
-      critical(critical_step(scene, stage, model, contacts)),
+      votes(scene, stage, model, contacts),
+      critical(votes.anyhow()),
       at_time{std::vector<BodyMotion>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
       start(model.bodies.size()),
       start_displacement(model.patch_star.size()),
@@ -88,7 +89,7 @@ void Simulation::State::forces() {
   motion.clear_forces(model);
   speeds = blocks.follow(model, motion);  // Eq. 11
   profile.enter(Phase::neighbours);
-  contacts.find_pairs(model, motion, dt_behind * speeds.largest);  // Table 1, 1
+  if (contacts.find_pairs(model, motion, dt_behind * speeds.largest)) vote_again();  // Table 1, 1
   profile.enter(Phase::contacts);
   const double interface_work = evaluate_contacts();  // Eqs. 28–48
   profile.enter(Phase::loads);
@@ -169,7 +170,8 @@ void Simulation::State::begin_due_stages() {
     blocks.set_supports(stage.supports);
     interfaces_changed = true;
     loads.replace(Loads(scene, stage, model));
-    critical = critical_step(scene, stage, model, contacts);
+    votes = StepVote(scene, stage, model, contacts);
+    critical = votes.among(contacts.lightest_neighbours());
     summary.critical_dt = std::min(summary.critical_dt, critical.dt);
   }
 }
@@ -178,6 +180,15 @@ double Simulation::State::nominal_dt() const {
   if (scene.time.dt) return *scene.time.dt;
   const double dt = automatic_step(critical, scene.time.safety);
   return settings.largest_dt > 0 ? std::min(dt, settings.largest_dt) : dt;
+}
+
+/// The step fits the neighbours that bodies have: it is cut short at once where it must be, and grows with
+/// the next plan.
+void Simulation::State::vote_again() {
+  critical = votes.among(contacts.lightest_neighbours());
+  if (scene.time.dt) return;
+  const bool too_long = plan.dt > nominal_dt() * (1 + rounding);
+  if (too_long || plan.done == 0) make_plan(plan.target);
 }
 
 /// v_rel Δt ≤ 0.1 h.
@@ -197,7 +208,7 @@ void Simulation::State::make_plan(double end) {
     summary.dt_limiter =
         "speed: no two bodies may approach by more than a tenth of the smallest width in a step";
   } else {
-    summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : critical.limiter;
+    summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : limiter_of(scene, critical);
   }
   const double target = end;
   if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
@@ -284,7 +295,7 @@ void Simulation::State::check_balance() {
                   "contacts",
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  critical.limiter));
+                  limiter_of(scene, critical)));
 }
 
 void Simulation::State::warn_of_large_step() {
@@ -293,7 +304,7 @@ void Simulation::State::warn_of_large_step() {
       fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}); above {} of it contacts "
                   "gain or lose energy, above "
                   "1 the run may blow up",
-                  plan.dt, plan.dt / critical.dt, critical.dt, critical.limiter, restless));
+                  plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical), restless));
 }
 
 void Simulation::State::warn_of_initial_overlap() {

@@ -32,7 +32,8 @@ struct Simulation::State {
   Deformation deformation;
   Loads loads;
   Relaxation relaxation;
-  CriticalStep critical;
+  StepVote votes;
+  CriticalStep critical;  ///< with the neighbours that bodies have now
 
   double time = 0;       ///< s, t_n
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
@@ -73,6 +74,7 @@ struct Simulation::State {
   void begin(double end);  ///< plans the way to the first target and finds the velocity at the present time
   void step(double next_end);  ///< one step; when it reaches its target it plans on to next_end
   void make_plan(double end);
+  void vote_again();
   double nominal_dt() const;
   double allowed_dt() const;
 

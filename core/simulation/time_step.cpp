@@ -164,36 +164,65 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
   return settings.prescribed.empty() && settings.absorbing.empty();
 }
 
-CriticalStep vote(const Scene& scene, const StageSettings& settings, const Model& model,
-                  const ContactStage& contacts, const Crowd& crowd, std::uint32_t index) {
-  const SpringsOfSides springs = springs_of(scene, settings, model, contacts, crowd, index);
-  const BodyVote vote = model.covered(index) ? vote_of_patches(scene, model, index, springs)
-                                             : vote_as_a_whole(scene, model, index, springs);
-  const bool elastic = vote.elastic_lambda > 0.5 * vote.lambda;
-  return {stable_step(vote.lambda, vote.gamma), stable_step(vote.lambda, 0),
-          fmt::format("body '{}': {}", scene.bodies[index].name,
-                      elastic ? "mostly its strain modes" : "mostly its contacts")};
-}
-
 }  // namespace
 
-CriticalStep critical_step(const Scene& scene, const StageSettings& settings, const Model& model,
-                           const ContactStage& contacts) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  CriticalStep smallest{none, none, "nothing vibrates"};
+StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
+                   const ContactStage& contacts) {
   const Crowd crowd(model, scene.surfaces.size());
-  std::vector<std::uint32_t> voted;
+  std::vector<std::size_t> different;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
-    const auto alike = [&](std::uint32_t other) { return votes_alike(scene, settings, model, i, other); };
-    if (std::any_of(voted.begin(), voted.end(), alike)) continue;
-    if (voted.size() < 64) voted.push_back(i);
-    CriticalStep here = vote(scene, settings, model, contacts, crowd, i);
-    const double undamped = std::min(smallest.undamped_dt, here.undamped_dt);
-    if (here.dt < smallest.dt) smallest = std::move(here);
-    smallest.undamped_dt = undamped;
+    const auto alike = std::find_if(different.begin(), different.end(), [&](std::size_t ballot) {
+      return votes_alike(scene, settings, model, i, ballots_[ballot].body);
+    });
+    if (alike != different.end()) {
+      ballots_.push_back(ballots_[*alike]);
+      ballots_.back().body = i;
+      continue;
+    }
+    if (different.size() < 64) different.push_back(ballots_.size());
+    const SpringsOfSides springs = springs_of(scene, settings, model, contacts, crowd, i);
+    const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs)
+                                           : vote_as_a_whole(scene, model, i, springs);
+    const bool supported =
+        std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
+    const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
+    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.gamma,
+                        contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
+                        model.bodies[i].contact_mass, i, vote.elastic_lambda > 0.5 * vote.lambda});
+  }
+}
+
+template <class Share>
+CriticalStep StepVote::count(const Share& share) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  CriticalStep smallest{none, none, 0, false};
+  for (const Ballot& ballot : ballots_) {
+    const double lambda = ballot.lambda_alone + share(ballot) * (ballot.lambda - ballot.lambda_alone);
+    smallest.undamped_dt = std::min(smallest.undamped_dt, stable_step(lambda, 0));
+    const double dt = stable_step(lambda, ballot.gamma);
+    if (!(dt < smallest.dt)) continue;
+    smallest.dt = dt;
+    smallest.body = ballot.body;
+    smallest.strained = ballot.strained;
   }
   return smallest;
+}
+
+CriticalStep StepVote::anyhow() const {
+  return count([](const Ballot&) { return 1.0; });
+}
+
+CriticalStep StepVote::among(std::span<const double> lightest) const {
+  return count([&](const Ballot& ballot) {
+    return std::min(1.0, (1 + std::sqrt(ballot.mass / lightest[ballot.body])) / ballot.factor);
+  });
+}
+
+std::string limiter_of(const Scene& scene, const CriticalStep& step) {
+  if (std::isinf(step.dt)) return "nothing vibrates";
+  return fmt::format("body '{}': {}", scene.bodies[step.body].name,
+                     step.strained ? "mostly its strain modes" : "mostly its contacts");
 }
 
 double automatic_step(const CriticalStep& critical, double safety) {

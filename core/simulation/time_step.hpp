@@ -4,29 +4,59 @@
 #include "model/model.hpp"
 #include "scene/scene.hpp"
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace talus {
 
 struct CriticalStep {
-  double dt;            ///< s
-  double undamped_dt;   ///< s, without dashpots: what the bounce of a contact is judged by
-  std::string limiter;  ///< the body and what limits it, in words
+  double dt;           ///< s; infinite if nothing vibrates
+  double undamped_dt;  ///< s, without dashpots: what the bounce of a contact is judged by
+  std::uint32_t body;  ///< who limits it
+  bool strained;       ///< mostly by its strain modes, not by its contacts
 };
+
+/// In words, who limits the step.
+std::string limiter_of(const Scene& scene, const CriticalStep& step);
 
 /// Upper bound of the stable step of central differences: the smallest vote of all moving bodies, each over
 /// its strain modes, its whole boundary in contact, and its penalty supports together. Tangential springs and
-/// dashpots are included. Infinite if nothing vibrates.
+/// dashpots are included.
 ///
 /// A contact between moving bodies a and b is split by (q_a − q_b)² ≤ (1 + √(m_a/m_b)) q_a² + (1 +
 /// √(m_b/m_a)) q_b², so the votes of single bodies bound the coupled system; with a fixed body the factor
-/// is 1.
+/// is 1. Who meets whom changes, and with it that factor alone.
 ///
 /// Dashpots lag by half a step and make the stable step shorter, but a bounce no less accurate; so the
 /// automatic step is a share of the undamped bound and kept well below the stable one.
-CriticalStep critical_step(const Scene& scene, const StageSettings& settings, const Model& model,
-                           const ContactStage& contacts);
+class StepVote {
+ public:
+  StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
+           const ContactStage& contacts);
+
+  /// Whoever meets whom.
+  CriticalStep anyhow() const;
+  /// While each body meets none lighter than `lightest` [body], kg per metre of thickness; infinite: it meets
+  /// fixed bodies only. Never shorter than anyhow().
+  CriticalStep among(std::span<const double> lightest) const;
+
+ private:
+  /// The largest eigenvalue is convex in the factor of the contact springs: between none and the largest it
+  /// stays below the chord.
+  struct Ballot {
+    double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
+    double gamma;                 ///< 1/s
+    double factor, mass;
+    std::uint32_t body;
+    bool strained;
+  };
+  template <class Share>
+  CriticalStep count(const Share& share) const;
+
+  std::vector<Ballot> ballots_;
+};
 
 /// The automatic step for a safety factor (Scene::TimeSettings::safety), s.
 double automatic_step(const CriticalStep& critical, double safety);

@@ -16,7 +16,7 @@ namespace {
 CriticalStep vote_of(const WorkingScene& text) {
   const Scene scene = text.read();
   const Model model = build_model(scene);
-  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
+  return StepVote(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true)).anyhow();
 }
 
 /// A body of one lattice, cut by its edges.

@@ -8,7 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 using namespace talus;
 
@@ -16,7 +20,7 @@ namespace {
 
 CriticalStep vote_of(const Scene& scene) {
   const Model model = build_model(scene);
-  return critical_step(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
+  return StepVote(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true)).anyhow();
 }
 
 std::string stiff(double normal, double tangential) {
@@ -62,7 +66,7 @@ TEST_CASE("without contacts the vote is the exact limit of the strain modes", "[
   const CriticalStep vote = vote_of(text.read());
   CHECK(vote.dt == Approx(2 / omega).epsilon(1e-9));
   CHECK(vote.dt == Approx(2 / std::sqrt(stiffest_mode(text.read(), {{0, 0}}))).epsilon(1e-5));
-  CHECK(vote.limiter == "body 'a': mostly its strain modes");
+  CHECK(limiter_of(text.read(), vote) == "body 'a': mostly its strain modes");
 }
 
 TEST_CASE("a rigid body that meets nobody has no limit", "[simulation][time_step]") {
@@ -180,4 +184,47 @@ TEST_CASE("mass ratio 1e6: the small body votes", "[simulation][time_step]") {
   // ω² ∝ α L/m: lengths as 1e3, masses as 1e6.
   CHECK(alone.dt / vote.dt > 20);
   CHECK(alone.dt / vote.dt < 1e3);
+}
+
+TEST_CASE("who is near decides how contacts between moving bodies count", "[simulation][time_step]") {
+  WorkingScene text;
+  text.cover = "block";
+  text.bodies = box("base", -5, -1, 5, 0, R"("fixed": true)") + ", " + box("block", 0, 0, 1, 1) + ", " +
+                box("pebble", 3, 0, 3.25, 0.25);
+  text.interface = stiff(1e11, 1e11);
+  const Scene scene = text.read();
+  const Model model = build_model(scene);
+  const StepVote votes(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
+  constexpr double nobody = std::numeric_limits<double>::infinity();
+  const double block = model.bodies[1].contact_mass, pebble = model.bodies[2].contact_mass;
+  // Both may meet both: the bound does not care who is where.
+  CHECK(votes.among(std::array{nobody, pebble, block}).dt == Approx(votes.anyhow().dt).epsilon(1e-14));
+  // With the base alone it may be longer, and is no longer than that of a scene without anybody else.
+  text.bodies = box("base", -5, -1, 5, 0, R"("fixed": true)") + ", " + box("pebble", 3, 0, 3.25, 0.25);
+  const double apart = votes.among(std::array{nobody, nobody, nobody}).dt;
+  CHECK(apart > 1.02 * votes.anyhow().dt);
+  CHECK(apart <= vote_of(text.read()).dt * (1 + 1e-12));
+}
+
+TEST_CASE("the step is cut as two bodies come near each other, with the skin or without",
+          "[simulation][time_step]") {
+  WorkingScene text;
+  text.cover = "rigid";
+  text.bodies = box("left", 0, 0, 1, 1, R"("velocity": [1, 0])") + ", " + box("right", 2, 0, 2.5, 0.5) +
+                ", " + box("base", 20, 0, 21, 1, R"("fixed": true)");
+  text.interface = stiff(1e9, 1e9);
+  text.time = R"({"end": 1.5})";
+  text.output = R"({"history": 0.25})";
+  std::vector<std::vector<std::uint64_t>> steps(2);
+  for (const bool skin : {true, false}) {
+    Simulation simulation(text.read(), {.neighbour_skin = skin});
+    simulation.advance();
+    for (std::uint64_t before = 0; simulation.advance(); before = simulation.summary().steps)
+      steps[skin].push_back(simulation.summary().steps - before);
+  }
+  CHECK(steps[0] == steps[1]);
+  // Near means within a tenth of the width: after 0.9 s or so. They hit after 1 s.
+  REQUIRE(steps[0].size() == 6);
+  CHECK(steps[0][2] == steps[0][0]);
+  CHECK(5 * steps[0][4] > 6 * steps[0][0]);
 }
