@@ -146,7 +146,7 @@ struct Stage {
 struct TimeSettings {
   double end;                ///< s
   std::optional<double> dt;  ///< s; automatic if absent
-  double safety;             ///< share of the critical time step taken when automatic
+  double safety;             ///< of the automatic step, see automatic_step()
 };
 
 struct OutputSettings {

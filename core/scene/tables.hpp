@@ -146,7 +146,8 @@ inline constexpr Parameter time[] = {
            "Time step; \"auto\" takes it from votes of bodies and contacts."),
     number(
         "safety", "-", 0.2, above_zero, 0.9,
-        "Share of the critical time step that is taken when automatic; at most 0.4 where bodies can meet."),
+        "The automatic step is the smaller of safety times the critical step without dashpots and the larger "
+        "of 0.6 and safety times the one with them; at most 0.4 where bodies can meet."),
 };
 
 inline constexpr Parameter output[] = {

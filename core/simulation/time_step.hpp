@@ -58,7 +58,7 @@ class StepVote {
   std::vector<Ballot> ballots_;
 };
 
-/// The automatic step for a safety factor (Scene::TimeSettings::safety), s.
+/// The automatic step, s: min(safety · undamped_dt, max(0.6, safety) · dt).
 double automatic_step(const CriticalStep& critical, double safety);
 
 /// What the treatment of slivers does to the stable step of a body without its contacts.
