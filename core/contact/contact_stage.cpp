@@ -206,8 +206,10 @@ void ContactStage::sort_loads_by_body(const Model& model) {
   visit([&](std::uint32_t body, const kernels::PieceLoads&) { ++body_loads_start_[body + 1]; });
   std::partial_sum(body_loads_start_.begin(), body_loads_start_.end(), body_loads_start_.begin());
   body_loads_.resize(body_loads_start_.back());
-  std::vector<std::uint32_t> next(body_loads_start_.begin(), body_loads_start_.end() - 1);
-  visit([&](std::uint32_t body, const kernels::PieceLoads& loads) { body_loads_[next[body]++] = loads; });
+  next_body_load_.assign(body_loads_start_.begin(), body_loads_start_.end() - 1);
+  visit([&](std::uint32_t body, const kernels::PieceLoads& loads) {
+    body_loads_[next_body_load_[body]++] = loads;
+  });
 }
 
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {

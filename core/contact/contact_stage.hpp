@@ -99,6 +99,7 @@ class ContactStage {
   std::vector<PiecePair> piece_pairs_;
   std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body
   std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
+  std::vector<std::uint32_t> next_body_load_;    ///< [body] while body_loads_ is filled
   std::vector<ChunkTotals> chunk_totals_;
   double travelled_ = 0;               ///< m, bound of what a corner has moved since the last search
   std::vector<double> ask_again_;      ///< [pair] m, of travelled_

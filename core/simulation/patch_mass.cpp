@@ -76,20 +76,21 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
   }
   const std::vector<double>& core = core_inverse_[index];
   if (!core.empty()) {
-    std::vector<Vec2> deviations;
-    std::vector<const SteadyPatch*> heavier;
+    static thread_local std::vector<Vec2> deviations;  // keeps its room: a step asks for no memory
+    deviations.clear();
     for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
-      if (!std::isfinite(model.steady[s].inertia)) continue;
-      heavier.push_back(&model.steady[s]);
-      deviations.push_back(deviation(model.steady[s], patches, 0));
+      if (std::isfinite(model.steady[s].inertia))
+        deviations.push_back(deviation(model.steady[s], patches, 0));
     }
-    for (std::size_t i = 0; i < heavier.size(); ++i) {
+    const double* row = core.data();
+    for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+      const SteadyPatch& steady = model.steady[s];
+      if (!std::isfinite(steady.inertia)) continue;
       Vec2 pull;
-      for (std::size_t j = 0; j < heavier.size(); ++j) {
-        pull.x += core[i * heavier.size() + j] * deviations[j].x;
-        pull.y += core[i * heavier.size() + j] * deviations[j].y;
+      for (const Vec2& each : deviations) {
+        pull.x += *row * each.x;
+        pull.y += *row++ * each.y;
       }
-      const SteadyPatch& steady = *heavier[i];
       const auto give = [&](std::uint32_t patch, double factor) {
         patches[patch].x -= factor * pull.x * inverse_[patch];
         patches[patch].y -= factor * pull.y * inverse_[patch];

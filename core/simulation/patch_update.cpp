@@ -1,5 +1,7 @@
 #include "simulation/velocity_update.hpp"
 
+// Vectors of a size that depends on the body keep their room from call to call: a step asks for no memory.
+
 namespace talus {
 namespace {
 
@@ -8,18 +10,17 @@ Vec2 along(Vec2 p, double factor, Vec2 q) {
 }
 
 /// The velocity of each patch when the body spins by 1 rad/s about its centre of mass, in the present shape.
-std::vector<Vec2> unit_spin(const Model& model, const Body& body, const MotionState& motion) {
+void unit_spin(const Model& model, const Body& body, const MotionState& motion, std::vector<Vec2>& spin) {
   Vec2 centre;
   for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
     const double share = model.patch_mass[p] / body.mass;
     centre = along(centre, share, along(model.patch_star[p], 1, motion.patch_displacement[p]));
   }
-  std::vector<Vec2> spin;
+  spin.clear();
   for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
     const Vec2 at = along(model.patch_star[p], 1, motion.patch_displacement[p]);
     spin.push_back({-(at.y - centre.y), at.x - centre.x});
   }
-  return spin;
 }
 
 /// Moving the centre of mass and turning about it are orthogonal in the mass, so taking one out leaves the
@@ -28,16 +29,26 @@ void impose_supports(const Model& model, const PatchMass& mass, std::uint32_t in
                      const StepConditions& conditions, const Update& update, const MotionState& motion,
                      std::span<const Vec2> before, std::span<Vec2> after, AccelerationWork& work) {
   const Body& body = model.bodies[index];
-  const auto impose_mode = [&](const std::optional<double>& wanted, const std::vector<Vec2>& mode) {
+  static thread_local std::vector<Vec2> mode;
+  const auto impose_mode = [&](const std::optional<double>& wanted) {
     const double inertia = mass.product(model, index, mode, mode);
     const double value = mass.product(model, index, after, mode) / inertia;
     const double value_before = mass.product(model, index, before, mode) / inertia;
     const double target = impose(wanted, inertia, value, value_before, conditions, update, work);
     for (std::size_t i = 0; i < after.size(); ++i) after[i] = along(after[i], target - value, mode[i]);
   };
-  if (support.x) impose_mode(support.x, std::vector<Vec2>(after.size(), Vec2{1, 0}));
-  if (support.y) impose_mode(support.y, std::vector<Vec2>(after.size(), Vec2{0, 1}));
-  if (support.rotation) impose_mode(support.rotation, unit_spin(model, body, motion));
+  if (support.x) {
+    mode.assign(after.size(), {1, 0});
+    impose_mode(support.x);
+  }
+  if (support.y) {
+    mode.assign(after.size(), {0, 1});
+    impose_mode(support.y);
+  }
+  if (support.rotation) {
+    unit_spin(model, body, motion, mode);
+    impose_mode(support.rotation);
+  }
 }
 
 /// K_n as for bodies that move as a whole: with steps of unequal length, by the velocity mirrored about t_n.
@@ -46,7 +57,8 @@ double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t 
                        std::span<const Vec2> at_step, std::span<const Vec2> after) {
   if (conditions.dt_behind == conditions.dt_ahead) return mass.product(model, body, first, before, after) / 2;
   const std::span<const Vec2> side = conditions.dt_behind > 0 ? before : after;
-  std::vector<Vec2> mirrored;
+  static thread_local std::vector<Vec2> mirrored;
+  mirrored.clear();
   for (std::size_t i = 0; i < side.size(); ++i)
     mirrored.push_back({2 * at_step[i].x - side[i].x, 2 * at_step[i].y - side[i].y});
   return mass.product(model, body, first, side, mirrored) / 2;
@@ -78,7 +90,8 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
   const std::size_t count = body.patch_end - first;
   const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
   const std::span<Vec2> middle(at_step.patches.data() + first, count);
-  const std::vector<Vec2> before(after.begin(), after.end());
+  static thread_local std::vector<Vec2> before;
+  before.assign(after.begin(), after.end());
 
   mass.accelerations(model, index, first, motion.patch_force);
   Vec2 momentum{own.sums.momentum[0], own.sums.momentum[1]};

@@ -110,6 +110,7 @@ const EnergyLedger& Simulation::ledger() const {
 RunSummary Simulation::summary() const {
   const State& s = *state_;
   RunSummary summary = s.summary;
+  summary.dt_limiter = s.limiter();
   summary.pair_searches = s.contacts.searches();
   summary.profile = s.profile;
   summary.largest_residual_share = std::max(summary.largest_residual_share, s.ledger.residual_share());

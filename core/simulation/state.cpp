@@ -197,25 +197,39 @@ double Simulation::State::allowed_dt() const {
                              : std::numeric_limits<double>::infinity();
 }
 
+/// At each output time, so nothing is put into words here.
 void Simulation::State::make_plan(double end) {
   if (!(end > time)) {  // nowhere left to go: the velocity at the end looks ahead by the step it came with
     plan = {time, time, plan.dt, 1, 0, time};
     return;
   }
   double dt = nominal_dt();
+  limit = scene.time.dt ? Limit::scene : Limit::critical;
   if (!scene.time.dt && allowed_dt() < dt) {
     dt = allowed_dt();
-    summary.dt_limiter =
-        "speed: no two bodies may approach by more than a tenth of the smallest width in a step";
-  } else {
-    summary.dt_limiter = scene.time.dt ? "time.dt of the scene" : limiter_of(scene, critical);
+    limit = Limit::speed;
   }
+  planned_with = critical;
   const double target = end;
   if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
   const double span = end - time;
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - rounding))));
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   summary.dt = std::max(summary.dt, plan.dt);
+}
+
+std::string Simulation::State::limiter() const {
+  switch (limit) {
+    case Limit::none:
+      return "";
+    case Limit::scene:
+      return "time.dt of the scene";
+    case Limit::speed:
+      return "speed: no two bodies may approach by more than a tenth of the smallest width in a step";
+    case Limit::critical:
+      break;
+  }
+  return limiter_of(scene, planned_with);
 }
 
 std::string Simulation::State::place(std::uint32_t body) const {

@@ -51,6 +51,9 @@ struct Simulation::State {
     double target = 0;  ///< s, the output time; later than `end` where a stage begins before
   };
   Plan plan;
+  enum class Limit { none, scene, speed, critical };
+  Limit limit = Limit::none;    ///< what made the step of the plan as short as it is
+  CriticalStep planned_with{};  ///< the bound then
 
   VelocitiesAtStep at_time;
   std::vector<BodyMotion> start;         ///< motion at t = 0, which displacements count from
@@ -74,6 +77,7 @@ struct Simulation::State {
   void begin(double end);  ///< plans the way to the first target and finds the velocity at the present time
   void step(double next_end);  ///< one step; when it reaches its target it plans on to next_end
   void make_plan(double end);
+  std::string limiter() const;  ///< of the plan's step, in words
   void vote_again();
   double nominal_dt() const;
   double allowed_dt() const;
