@@ -1,5 +1,6 @@
 // Time per block and step of whole runs, as users meet them. See README.md beside.
 
+#include "interface.hpp"
 #include "lattice.hpp"
 #include "setup.hpp"
 #include "step.hpp"
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   register_steps();
+  register_interface();
   register_lattices();
   register_setups();
   register_whole_programs();

@@ -22,7 +22,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGE, STORE = ROOT / "docs/benchmarks.md", ROOT / "docs/benchmarks.json"
-SECTIONS = ("machine", "steps", "setup", "programs", "peers")
+SECTIONS = ("machine", "steps", "interface", "setup", "programs", "peers")
 
 STEPS = "^(brick_wall/411/overlap_area|sliding|pile).*threads:[{}]"
 LARGE_STEPS = "^large/(sliding|pile).*threads:[{}]"
@@ -80,6 +80,10 @@ def measure_steps(binaries, arguments):
     return found
 
 
+def measure_interface(binaries, arguments):
+    return google_benchmark(binaries / "talus_benchmarks", "^interface/", arguments.repetitions)
+
+
 def measure_setup(binaries, arguments):
     pattern = "setup/" if arguments.large else "^(large/)?setup/pile/(5000|50000)/"
     return google_benchmark(binaries / "talus_benchmarks", pattern, 1)
@@ -110,6 +114,10 @@ def number(value, digits=3):
         value = round(value, digits - 1 - len(str(int(value))) + 1)
         return f"{value:,.0f}"
     return f"{value:.{digits}g}"
+
+
+def percent(value):
+    return "–" if value is None else f"{100 * value:.1f} %"
 
 
 def counted(value):
@@ -151,6 +159,27 @@ def show_steps(store):
             for column in columns:
                 value = get(store, column, "steps", case, key)
                 row.append(number(value))
+        rows.append(row)
+    return table(heads, rows)
+
+
+def show_interface(store):
+    columns, cases = columns_of(store, "interface")
+    parts = {
+        "step_us": "step [µs]",
+        "interface_us_per_step": "its contacts through the interface [µs]",
+        "fused_us_per_step": "compiled as one [µs]",
+        "interface_over_fused": "ratio",
+        "share_of_step": "the interface, of the step",
+    }
+    heads = ["case"] + [f"{what}, {column}" for what in parts.values() for column in columns]
+    rows = []
+    for case in cases:
+        row = [f"`{case}`"]
+        for key in parts:
+            values = [get(store, column, "interface", case, key) for column in columns]
+            shown = percent if key == "share_of_step" else number
+            row += [shown(value) for value in values]
         rows.append(row)
     return table(heads, rows)
 
@@ -209,6 +238,7 @@ def rewrite(store):
     show = {
         "machine": show_machine,
         "steps": show_steps,
+        "interface": show_interface,
         "setup": show_setup,
         "programs": show_programs,
         "peers": show_peers,
