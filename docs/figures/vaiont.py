@@ -207,4 +207,5 @@ def main():
     draw(result, sections, given.picture)
 
 
-main()
+if __name__ == "__main__":
+    main()
