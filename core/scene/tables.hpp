@@ -144,10 +144,10 @@ inline constexpr Parameter time[] = {
     number("end", "s", required, above_zero, unbounded, "When the run ends."),
     number("dt", "s", automatic, above_zero, unbounded,
            "Time step; \"auto\" takes it from votes of bodies and contacts."),
-    number(
-        "safety", "-", 0.2, above_zero, 0.9,
-        "The automatic step is the smaller of safety times the critical step without dashpots and the larger "
-        "of 0.6 and safety times the one with them; at most 0.4 where bodies can meet."),
+    number("safety", "-", 0.2, above_zero, 0.9,
+           "The automatic step is the smaller of safety times the critical step of contacts and supports "
+           "alone and "
+           "the larger of 0.6 and safety times that of the whole scene; at most 0.4 where bodies can meet."),
 };
 
 inline constexpr Parameter output[] = {

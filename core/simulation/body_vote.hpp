@@ -26,6 +26,7 @@ struct SideSprings {
 struct BodyVote {
   double lambda = 0, gamma = 0;
   double elastic_lambda = 0;  ///< of its strain modes alone
+  double spring_lambda = 0;   ///< of its springs alone
 };
 
 /// [side of the body, from Body::side_begin]

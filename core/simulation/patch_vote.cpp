@@ -145,12 +145,15 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
   const Operator elastic = [&](const Field& from, Field& to) {
     add_elastic(model, body, tangent, 1, from, to);
   };
-  const Operator stiffness = [&](const Field& from, Field& to) {
-    add_elastic(model, body, tangent, 1, from, to);
+  const Operator sprung = [&](const Field& from, Field& to) {
     add_springs(
         model, body, springs,
         [](const SideSprings& s) { return std::pair(s.normal + s.support, s.tangential + s.support); }, from,
         to);
+  };
+  const Operator stiffness = [&](const Field& from, Field& to) {
+    elastic(from, to);
+    sprung(from, to);
   };
   const Operator damping = [&](const Field& from, Field& to) {
     if (tangent.viscous_time > 0) add_elastic(model, body, tangent, tangent.viscous_time, from, to);
@@ -159,12 +162,13 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
         [](const SideSprings& s) { return std::pair(s.normal_damping, s.tangential_damping); }, from, to);
   };
   const auto any = [&](const auto& wanted) { return std::any_of(springs.begin(), springs.end(), wanted); };
-  const bool sprung = any([](const SideSprings& s) { return s.normal + s.tangential + s.support > 0; });
+  const bool has_springs = any([](const SideSprings& s) { return s.normal + s.tangential + s.support > 0; });
   const bool damped = tangent.viscous_time > 0 ||
                       any([](const SideSprings& s) { return s.normal_damping + s.tangential_damping > 0; });
   BodyVote vote;
   vote.elastic_lambda = largest_eigenvalue(model, mass, index, elastic);
-  vote.lambda = sprung ? largest_eigenvalue(model, mass, index, stiffness) : vote.elastic_lambda;
+  vote.lambda = has_springs ? largest_eigenvalue(model, mass, index, stiffness) : vote.elastic_lambda;
+  if (has_springs) vote.spring_lambda = largest_eigenvalue(model, mass, index, sprung);
   if (damped) vote.gamma = largest_eigenvalue(model, mass, index, damping);
   return vote;
 }

@@ -187,8 +187,8 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
     const bool supported =
         std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
     const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
-    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.gamma,
-                        contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
+    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.spring_lambda,
+                        vote.gamma, contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
                         model.bodies[i].contact_mass, i, vote.elastic_lambda > 0.5 * vote.lambda});
   }
 }
@@ -199,7 +199,7 @@ CriticalStep StepVote::count(const Share& share) const {
   CriticalStep smallest{none, none, 0, false};
   for (const Ballot& ballot : ballots_) {
     const double lambda = ballot.lambda_alone + share(ballot) * (ballot.lambda - ballot.lambda_alone);
-    smallest.undamped_dt = std::min(smallest.undamped_dt, stable_step(lambda, 0));
+    smallest.spring_dt = std::min(smallest.spring_dt, stable_step(share(ballot) * ballot.springs, 0));
     const double dt = stable_step(lambda, ballot.gamma);
     if (!(dt < smallest.dt)) continue;
     smallest.dt = dt;
@@ -227,7 +227,8 @@ std::string limiter_of(const Scene& scene, const CriticalStep& step) {
 
 double automatic_step(const CriticalStep& critical, double safety) {
   constexpr double most_of_stable = 0.6;
-  return std::min(safety * critical.undamped_dt, std::max(safety, most_of_stable) * critical.dt);
+  if (std::isinf(critical.spring_dt)) return safety * critical.dt;
+  return std::min(safety * critical.spring_dt, std::max(safety, most_of_stable) * critical.dt);
 }
 
 std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model) {

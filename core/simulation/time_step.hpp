@@ -13,7 +13,7 @@ namespace talus {
 
 struct CriticalStep {
   double dt;           ///< s; infinite if nothing vibrates
-  double undamped_dt;  ///< s, without dashpots: what the bounce of a contact is judged by
+  double spring_dt;    ///< s, with contacts and supports alone, undamped: what a bounce is judged by
   std::uint32_t body;  ///< who limits it
   bool strained;       ///< mostly by its strain modes, not by its contacts
 };
@@ -29,8 +29,9 @@ std::string limiter_of(const Scene& scene, const CriticalStep& step);
 /// √(m_b/m_a)) q_b², so the votes of single bodies bound the coupled system; with a fixed body the factor
 /// is 1. Who meets whom changes, and with it that factor alone.
 ///
-/// Dashpots lag by half a step and make the stable step shorter, but a bounce no less accurate; so the
-/// automatic step is a share of the undamped bound and kept well below the stable one.
+/// A bounce is as accurate as its springs are resolved. Strain modes, and dashpots, which lag by half a step,
+/// make the stable step shorter, but a bounce no less accurate; so the automatic step is a share of the bound
+/// with springs alone and kept well below the stable one.
 class StepVote {
  public:
   StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
@@ -47,6 +48,7 @@ class StepVote {
   /// stays below the chord.
   struct Ballot {
     double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
+    double springs;               ///< 1/s², of the springs times `factor` alone
     double gamma;                 ///< 1/s
     double factor, mass;
     std::uint32_t body;
@@ -58,7 +60,7 @@ class StepVote {
   std::vector<Ballot> ballots_;
 };
 
-/// The automatic step, s: min(safety · undamped_dt, max(0.6, safety) · dt).
+/// The automatic step, s: min(safety · spring_dt, max(0.6, safety) · dt); safety · dt without springs.
 double automatic_step(const CriticalStep& critical, double safety);
 
 /// What the treatment of slivers does to the stable step of a body without its contacts.

@@ -84,7 +84,8 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
     }
   }
   return {largest_eigenvalue(stiffness, mass), largest_eigenvalue(damping, mass),
-          largest_eigenvalue(elastic.stiffness, mass)};
+          largest_eigenvalue(elastic.stiffness, mass),
+          largest_eigenvalue(stiffness - elastic.stiffness, mass)};
 }
 
 }  // namespace talus

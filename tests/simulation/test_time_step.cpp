@@ -228,3 +228,20 @@ TEST_CASE("the step is cut as two bodies come near each other, with the skin or 
   CHECK(steps[0][2] == steps[0][0]);
   CHECK(5 * steps[0][4] > 6 * steps[0][0]);
 }
+
+TEST_CASE("a bounce is judged by the springs, stability by the strain modes as well",
+          "[simulation][time_step]") {
+  WorkingScene text = cross(1e8, "block", R"("fixed": true)");
+  const CriticalStep strained = vote_of(text.read());
+  // 1e8 Pa/m on a side against 1.6e10 Pa over 1 m: the springs alone are far slower.
+  CHECK(strained.spring_dt > 3 * strained.dt);
+  CHECK(automatic_step(strained, 0.2) == Approx(0.6 * strained.dt).epsilon(1e-14));
+  CHECK(automatic_step(strained, 0.01) == Approx(0.01 * strained.spring_dt).epsilon(1e-14));
+  text.cover = "rigid";
+  const CriticalStep unstrained = vote_of(text.read());
+  CHECK(unstrained.spring_dt == Approx(unstrained.dt).epsilon(1e-14));
+  text.bodies = box("middle", 0, 0, 1, 1);
+  text.cover = "block";
+  const CriticalStep alone = vote_of(text.read());
+  CHECK(automatic_step(alone, 0.3) == Approx(0.3 * alone.dt).epsilon(1e-14));
+}
