@@ -16,35 +16,46 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
 const Scene& Simulation::scene() const {
-  return state_->scene;
+  return state_->as_given ? *state_->as_given : state_->scene;
 }
 
 void Simulation::take_geometry(const Geometry& geometry) {
   State& s = *state_;
   const double* from = geometry.unknowns.data();
   for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
-    BodyMotion& body = s.motion.bodies[i];
+    const std::uint32_t index = s.numbering.inside(i);
+    BodyMotion& body = s.motion.bodies[index];
     body.u = {from[0], from[1]};
     body.h = {from[2], from[3], from[4], from[5]};
-    if (s.model.bodies[i].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
+    if (s.model.bodies[index].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
   }
-  for (Vec2& displacement : s.motion.patch_displacement) {
-    displacement = {from[0], from[1]};
-    from += 2;
+  for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
+    const Body& body = s.model.bodies[s.numbering.inside(i)];
+    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p, from += 2)
+      s.motion.patch_displacement[p] = {from[0], from[1]};
   }
-  if (geometry.memory.size() == s.deformation.memory().size()) s.deformation.set_memory(geometry.memory);
+  if (geometry.memory.size() == s.deformation.memory().size() && geometry.numbering == s.numbering.inner)
+    s.deformation.set_memory(geometry.memory);
 }
 
 Geometry Simulation::geometry() const {
+  const State& s = *state_;
   Geometry geometry;
-  for (const BodyMotion& body : state_->motion.bodies) {
+  for (std::size_t i = 0; i < s.motion.bodies.size(); ++i) {
+    const BodyMotion& body = s.motion.bodies[s.numbering.inside(i)];
     for (const double value : {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy}) {
       geometry.unknowns.push_back(value);
     }
   }
-  for (const Vec2 displacement : state_->motion.patch_displacement)
-    geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
-  geometry.memory = state_->deformation.memory();
+  for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
+    const Body& body = s.model.bodies[s.numbering.inside(i)];
+    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+      const Vec2 displacement = s.motion.patch_displacement[p];
+      geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
+    }
+  }
+  geometry.memory = s.deformation.memory();
+  geometry.numbering = s.numbering.inner;
   return geometry;
 }
 
@@ -144,8 +155,9 @@ std::size_t Simulation::block_count() const {
 std::string Simulation::state_hash() const {
   std::vector<double> state;
   for (std::size_t i = 0; i < state_->motion.bodies.size(); ++i) {
-    if (state_->model.covered(static_cast<std::uint32_t>(i))) continue;
-    const BodyMotion& body = state_->motion.bodies[i];
+    const std::uint32_t index = state_->numbering.inside(i);
+    if (state_->model.covered(index)) continue;
+    const BodyMotion& body = state_->motion.bodies[index];
     state.insert(state.end(),
                  {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy, body.velocity.x,
                   body.velocity.y, body.rate.xx, body.rate.xy, body.rate.yx, body.rate.yy, body.spin});
@@ -168,8 +180,8 @@ std::string Simulation::state_hash() const {
 
 Motion Simulation::body_motion(std::size_t body) const {
   const State& s = *state_;
-  const auto index = static_cast<std::uint32_t>(body);
-  const Body& b = s.model.bodies[body];
+  const std::uint32_t index = s.numbering.inside(body);
+  const Body& b = s.model.bodies[index];
   if (!s.model.covered(index)) return point_motion(body, b.centre);
   Vec2 now, start, speed;
   for (std::uint32_t p = b.patch_begin; p < b.patch_end; ++p) {
@@ -179,11 +191,11 @@ Motion Simulation::body_motion(std::size_t body) const {
     add(start, s.start_displacement[p]);
     add(speed, s.at_time.patches[p]);
   }
-  const std::array<double, 3> stress = s.deformation.cauchy(s.model, body);
+  const std::array<double, 3> stress = s.deformation.cauchy(s.model, index);
   return {{b.centre.x + now.x, b.centre.y + now.y},
           {now.x - start.x, now.y - start.y},
           speed,
-          s.rotation[body],
+          s.rotation[index],
           stress[0],
           stress[1],
           stress[2]};
@@ -191,8 +203,8 @@ Motion Simulation::body_motion(std::size_t body) const {
 
 Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   const State& s = *state_;
-  const auto index = static_cast<std::uint32_t>(body);
-  const Vec2 centre = s.model.bodies[body].centre;
+  const std::uint32_t index = s.numbering.inside(body);
+  const Vec2 centre = s.model.bodies[index].centre;
   const Vec2 reference{point_at_start.x - centre.x, point_at_start.y - centre.y};
   Vec2 now, start, speed;
   std::array<double, 3> stress{};
@@ -204,15 +216,15 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
     speed = carried(carrier, s.at_time.patches);
     stress = s.deformation.cauchy_of_element(element);
   } else {
-    now = displacement(s.motion.bodies[body], reference);
-    start = displacement(s.start[body], reference);
-    speed = velocity(s.at_time.bodies[body], reference);
-    stress = s.deformation.cauchy(s.model, body);
+    now = displacement(s.motion.bodies[index], reference);
+    start = displacement(s.start[index], reference);
+    speed = velocity(s.at_time.bodies[index], reference);
+    stress = s.deformation.cauchy(s.model, index);
   }
   return {{point_at_start.x + now.x, point_at_start.y + now.y},
           {now.x - start.x, now.y - start.y},
           speed,
-          s.rotation[body],
+          s.rotation[index],
           stress[0],
           stress[1],
           stress[2]};
@@ -220,11 +232,11 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
 
 std::vector<BodyPart> Simulation::parts(std::size_t body) const {
   const State& s = *state_;
-  const auto index = static_cast<std::uint32_t>(body);
-  const Body& b = s.model.bodies[body];
+  const std::uint32_t index = s.numbering.inside(body);
+  const Body& b = s.model.bodies[index];
   std::vector<BodyPart> parts;
   if (!s.model.covered(index)) {
-    BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, body)});
+    BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, index)});
     const auto add_loop = [&](const Loop& loop) {
       std::vector<PartPoint>& points = whole.loops.emplace_back();
       for (const Vec2 vertex : loop.vertices) {
@@ -232,8 +244,8 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
         points.push_back({point.position, point.displacement, point.velocity});
       }
     };
-    add_loop(s.scene.bodies[body].outer);
-    for (const Loop& hole : s.scene.bodies[body].holes) add_loop(hole);
+    add_loop(s.scene.bodies[index].outer);
+    for (const Loop& hole : s.scene.bodies[index].holes) add_loop(hole);
     return parts;
   }
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
@@ -255,7 +267,11 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
 }
 
 std::vector<SliverEffect> Simulation::slivers() const {
-  return sliver_effects(state_->scene, state_->model);
+  std::vector<SliverEffect> effects = sliver_effects(state_->scene, state_->model);
+  for (SliverEffect& effect : effects) effect.body = state_->numbering.outside(effect.body);
+  std::sort(effects.begin(), effects.end(),
+            [](const SliverEffect& a, const SliverEffect& b) { return a.body < b.body; });
+  return effects;
 }
 
 std::size_t Simulation::patch_count() const {
@@ -275,17 +291,24 @@ std::vector<Contact> Simulation::contacts() const {
   for (const BodyPair& pair : s.contacts.pairs()) {
     const Vec2 frame = s.model.bodies[pair.a].centre;
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
+    const std::uint32_t a = s.numbering.outside(pair.a), b = s.numbering.outside(pair.b);
+    const double sign = a <= b ? 1 : -1;
       const ContactReport& r = s.contacts.reports()[pair.slot_start + i];
-      result.push_back({pair.a,
-                        pair.b,
+      result.push_back({std::min(a, b),
+                        std::max(a, b),
                         {frame.x + r.x, frame.y + r.y},
-                        {r.px, r.py},
-                        {r.tx, r.ty},
+                        {sign * r.px, sign * r.py},
+                        {sign * r.tx, sign * r.ty},
                         r.penetration,
                         r.slipping != 0});
     }
   }
   return result;
+  if (!s.numbering.outer.empty()) {
+    std::stable_sort(result.begin(), result.end(), [](const Contact& p, const Contact& q) {
+      return std::pair{p.body_a, p.body_b} < std::pair{q.body_a, q.body_b};
+    });
+  }
 }
 
 }  // namespace talus

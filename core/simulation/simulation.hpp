@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -80,7 +81,8 @@ struct RunSummary {
 /// Displacements and the like of every body, to start another run from the same settled geometry.
 struct Geometry {
   std::vector<double> unknowns;
-  std::vector<double> memory;  ///< of the materials; used where both have the same
+  std::vector<double> memory;            ///< of the materials; used where both have the same
+  std::vector<std::uint32_t> numbering;  ///< of the bodies, for the memory
 };
 
 /// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.

@@ -23,7 +23,9 @@ constexpr double initial_overlap = 1e-6;
 }  // namespace
 
 Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
-    : scene(std::move(scene_in)),
+    : numbering(numbering_of(scene_in)),
+      as_given(numbering.outer.empty() ? std::nullopt : std::optional(scene_in)),
+      scene(renumbered(std::move(scene_in), numbering)),
       settings(settings_in),
       stage(settings_of(scene)),
       workers(settings.threads),

@@ -8,6 +8,7 @@
 #include "simulation/integrator.hpp"
 #include "simulation/ledger.hpp"
 #include "simulation/loads.hpp"
+#include "simulation/numbering.hpp"
 #include "simulation/patch_mass.hpp"
 #include "simulation/profile.hpp"
 #include "simulation/relaxation.hpp"
@@ -15,12 +16,16 @@
 #include "simulation/time_step.hpp"
 
 namespace talus {
+#include <optional>
+
 
 /// Everything a simulation holds.
 struct Simulation::State {
   State(Scene scene, const RunSettings& settings);
 
   Scene scene;
+  Numbering numbering;            ///< the only numbers that leave are those of the scene as it was given
+  std::optional<Scene> as_given;  ///< where bodies have other numbers within
   RunSettings settings;
   StageSettings stage;  ///< what holds now
   Workers workers;

@@ -3,6 +3,7 @@
 
   pile.py --blocks 5000 > pile_5000.json                                25 courses, each one block shorter
   pile.py --blocks 500000 --shape rectangle --cover rigid > pile.json   250 courses of rigid bricks
+  pile.py --blocks 50000 --listing shuffled > pile_shuffled.json        blocks listed in no order
 
 Each course is half a block in from the one below, up to some blocks more that make up the number. All courses
 start with a slow fall that grows with their height, so that all of them touch after a few steps.
@@ -57,10 +58,20 @@ def body_line(name, outline, velocity):
     return f'    {{"name": "{name}", "polygon": [{points}], "material": "rock"{rest}}}'
 
 
-def scene(blocks, shape, cover, seed):
-    body_lines = ",\n".join(body_line(*body) for body in bodies(blocks, shape, seed))
+def listed(all_bodies, listing, seed):
+    """Fisher and Yates' shuffle, where asked for."""
+    if listing == "shuffled":
+        uniform = Uniform(seed)
+        for i in range(len(all_bodies) - 1, 0, -1):
+            j = min(i, int((uniform() + 1) / 2 * (i + 1)))
+            all_bodies[i], all_bodies[j] = all_bodies[j], all_bodies[i]
+    return all_bodies
+
+
+def scene(blocks, shape, cover, listing, seed):
+    body_lines = ",\n".join(body_line(*body) for body in listed(list(bodies(blocks, shape, seed)), listing, seed))
     return f"""// A pile of {blocks} blocks in {len(course_lengths(blocks))} courses on a fixed floor.
-// Made by: generate/pile.py --blocks {blocks} --shape {shape} --cover {cover} --seed {seed}
+// Made by: generate/pile.py --blocks {blocks} --shape {shape} --cover {cover} --listing {listing} --seed {seed}
 //
 // Shows: what many blocks cost to read, to set up and to step; a scene for measuring, without a closed-form answer.
 {{
@@ -93,11 +104,12 @@ def main():
     parser.add_argument("--blocks", type=int, default=5000)
     parser.add_argument("--shape", choices=("jittered", "rectangle"), default="jittered")
     parser.add_argument("--cover", choices=("block", "rigid"), default="block", help="deformable or rigid blocks")
+    parser.add_argument("--listing", choices=("built", "shuffled"), default="built", help="course by course, or in no order")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     if arguments.blocks < 1:
         parser.error("--blocks must be at least 1")
-    sys.stdout.write(scene(arguments.blocks, arguments.shape, arguments.cover, arguments.seed))
+    sys.stdout.write(scene(arguments.blocks, arguments.shape, arguments.cover, arguments.listing, arguments.seed))
 
 
 if __name__ == "__main__":

@@ -113,6 +113,10 @@ void register_crowds() {
                      "overlap_area", false},
                     blocks > 5000 ? 5e-4 : 2e-3);
     }
+    register_case(
+        fmt::format("{}pile_shuffled/50000/{}/symmetric", large, cover),
+        {fmt::format("pile.py --blocks 50000 --listing shuffled --cover {}", cover), "overlap_area", false},
+        5e-4);
   }
 }
 
