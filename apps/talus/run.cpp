@@ -49,6 +49,16 @@ void print_summary(const RunResult& result, const std::filesystem::path& folder)
     fmt::print("largest overlap {:.4g} m ({})\n", summary.largest_penetration,
                summary.largest_penetration_pair);
   }
+  if (summary.sleep) {
+    const SleepReport& sleep = *summary.sleep;
+    fmt::print("{} islands went to sleep, {} woke; {} bodies asleep at the end, {:.4g} s the longest\n",
+               sleep.islands, sleep.woken, sleep.bodies_asleep, sleep.longest);
+    fmt::print(
+        "not followed: at most {:.3g} m/s and {:.3g} m/s2 at first, so {:.3g} m/s and {:.3g} m where "
+        "that did not grow; {:.3g} J/m taken\n",
+        sleep.speed, sleep.acceleration, sleep.velocity_bound, sleep.displacement_bound,
+        sleep.kinetic_energy);
+  }
   fmt::print("largest energy residual {:.2g} % of the throughput\nstate {}\nresults in {}\n",
              100 * summary.largest_residual_share, result.state_hash, folder.string());
 }

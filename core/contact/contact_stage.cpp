@@ -168,6 +168,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
     damping_power_[i] = old_damping_power_[old];
   }
   lay_out_slots(capacities_);
+  if (!island_.empty()) hold_sleeping_pairs();
 }
 
 /// Gives every pair its contact slots, one pair after the other, and moves its history there.
@@ -175,9 +176,12 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
   std::uint32_t slots = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) slots += capacities[i];
   next_history_.resize(std::size_t{slots} * history_doubles_);
+  std::vector<ContactReport> reports(island_.empty() ? 0 : slots);
   std::uint32_t start = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     BodyPair& pair = pairs_[i];
+    if (!island_.empty())
+      std::copy_n(reports_.begin() + pair.slot_start, pair.contact_count, reports.begin() + start);
     const std::size_t count = std::size_t{pair.contact_count} * history_doubles_;
     const double* from = history_.data() + std::size_t{pair.slot_start} * history_doubles_;
     std::copy(from, from + count, next_history_.data() + std::size_t{start} * history_doubles_);
@@ -187,6 +191,10 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
   }
   history_.swap(next_history_);
   next_history_.resize(history_.size());
+  if (!island_.empty()) {
+    reports_.swap(reports);
+    keep_sleeping_history();
+  }
   reports_.resize(slots);
 }
 
@@ -214,7 +222,10 @@ void ContactStage::sort_loads_by_body(const Model& model) {
 
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return {};
-  while (!call_law(model, motion, conditions)) make_room();
+  touched_.clear();
+  do {
+    while (!call_law(model, motion, conditions)) make_room();
+  } while (wake_touched());
   history_.swap(next_history_);
   const ContactTotals totals = close_step();
   add_loads(model, motion);
@@ -237,6 +248,7 @@ bool ContactStage::call_law(const Model& model, const MotionState& motion, const
 #ifdef TALUS_AUDIT
   for (std::vector<double>* values : {&next_history_, &load_x_, &load_y_})
     std::fill(values->begin(), values->end(), std::numeric_limits<double>::quiet_NaN());
+  keep_sleeping_history();
 #endif
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
@@ -341,6 +353,7 @@ void ContactStage::add_loads(const Model& model, MotionState& motion) {
   };
   workers_.over(model.bodies.size(), body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t body = begin; body < end; ++body) {
+      if (!island_.empty() && island_[body] != 0) continue;
       if (body_loads_start_[body] != body_loads_start_[body + 1]) add(static_cast<std::uint32_t>(body));
     }
   });

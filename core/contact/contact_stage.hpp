@@ -54,6 +54,14 @@ class ContactStage {
   /// no step is taken.
   double with_former_interfaces(const Model& model, const MotionState& motion, const Conditions& conditions);
 
+  /// [body] the island that it sleeps in, 0 for none; empty: all are awake. Contacts within an island stay as
+  /// they are from the next step on. The array is looked at until the next call.
+  void set_asleep(std::span<const std::uint32_t> island);
+  /// Islands that other bodies were found to touch by the last evaluate(), rising; it took them as awake.
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
+  /// What a pair evaluated last holds, J/m.
+  double stored_in(std::size_t pair) const { return pair_reports_[pair].stored; }
+
   std::uint64_t searches() const { return searches_; }
   std::span<const BodyPair> pairs() const { return pairs_; }
   std::span<const ContactReport> reports() const { return reports_; }
@@ -74,6 +82,10 @@ class ContactStage {
   ChunkTotals total(std::span<const std::uint32_t> active, std::size_t begin);
   ContactTotals close_step();
   void add_loads(const Model& model, MotionState& motion);
+  bool sleeps(const BodyPair& pair) const;
+  void hold_sleeping_pairs();
+  void keep_sleeping_history();
+  bool wake_touched();
   void add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
   double master_share(std::uint32_t a, std::uint32_t b) const;
 
@@ -110,6 +122,8 @@ class ContactStage {
   std::vector<ContactReport> reports_;
   std::vector<PairReport> pair_reports_;
   std::vector<double> load_x_, load_y_;
+  std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
+  std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
 };
 
 }  // namespace talus

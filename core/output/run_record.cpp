@@ -80,9 +80,23 @@ Json ledger_json(const EnergyLedger& ledger) {
           {"contact_damping_loss [J/m]", ledger.contact_damping_loss},
           {"global_damping_loss [J/m]", ledger.global_damping_loss},
           {"material_loss [J/m]", ledger.material_loss},
+          {"sleep_loss [J/m]", ledger.sleep_loss},
           {"external_work [J/m]", ledger.external_work},
           {"residual [J/m]", ledger.residual},
           {"throughput [J/m]", ledger.throughput}};
+}
+
+Json sleep_json(const SleepReport& sleep) {
+  return {{"islands", sleep.islands},
+          {"woken", sleep.woken},
+          {"bodies_asleep", sleep.bodies_asleep},
+          {"longest [s]", sleep.longest},
+          {"body_time [s]", sleep.body_time},
+          {"speed [m/s]", sleep.speed},
+          {"acceleration [m/s2]", sleep.acceleration},
+          {"velocity_bound [m/s]", sleep.velocity_bound},
+          {"displacement_bound [m]", sleep.displacement_bound},
+          {"kinetic_energy [J/m]", sleep.kinetic_energy}};
 }
 
 }  // namespace
@@ -132,6 +146,7 @@ std::string run_record(const Scene& scene, const RunOrder& order, const RunResul
   record["critical_dt [s]"] = summary.critical_dt;
   record["largest_penetration [m]"] = summary.largest_penetration;
   record["largest_penetration_pair"] = summary.largest_penetration_pair;
+  if (summary.sleep) record["sleep"] = sleep_json(*summary.sleep);
   record["ledger"] = ledger_json(result.ledger);
   record["largest_residual_share"] = summary.largest_residual_share;
   record["warnings"] = warnings;

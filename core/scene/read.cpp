@@ -59,6 +59,7 @@ void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   read_settle(reading, root);
   read_monitors(reading, root);
   read_time(reading, root);
+  read_sleep(reading, root);
   read_output(reading, root);
   read_limits(reading, root);
   read_tolerances(reading, root);

@@ -149,6 +149,13 @@ struct TimeSettings {
   double safety;             ///< of the automatic step, see automatic_step()
 };
 
+/// When bodies that rest are no longer followed.
+struct SleepSettings {
+  double speed;         ///< m/s, that no corner reaches
+  double acceleration;  ///< m/s², of a corner, at most
+  double after;         ///< s
+};
+
 struct OutputSettings {
   double history;                ///< s
   std::optional<double> frames;  ///< s; no frames if absent
@@ -191,6 +198,7 @@ struct Scene {
   std::vector<Stage> stages;  ///< in the order of their times, all later than 0
   std::vector<Monitor> monitors;
   TimeSettings time;
+  std::optional<SleepSettings> sleep;
   OutputSettings output;
   Limits limits;
   std::vector<Tolerance> tolerances;

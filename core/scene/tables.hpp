@@ -150,6 +150,14 @@ inline constexpr Parameter time[] = {
            "the larger of 0.6 and safety times that of the whole scene; at most 0.4 where bodies can meet."),
 };
 
+inline constexpr Parameter sleep[] = {
+    number("speed", "m/s", 1e-5, above_zero, unbounded, "Speed that no corner of a body at rest reaches."),
+    number("acceleration", "m/s2", 1e-3, above_zero, unbounded,
+           "Largest acceleration of a corner with which bodies may be put to sleep."),
+    number("after", "s", 0.05, above_zero, unbounded,
+           "How long all bodies of an island have to be at rest before it sleeps."),
+};
+
 inline constexpr Parameter output[] = {
     number("history", "s", not_set, above_zero, unbounded,
            "Interval of the history; a 500th of the run if left out, or a little less to divide the frames' "
@@ -203,6 +211,7 @@ inline constexpr Described all[] = {
     {"/settle", settle},
     {"/stages/*", stage},
     {"/time", time},
+    {"/sleep", sleep},
     {"/output", output},
     {"/limits", limits},
     {"/tolerances/*", tolerance},

@@ -119,6 +119,19 @@ void read_time(Reading& reading, Section& root) {
   root.resolved["time"] = time.resolved;
 }
 
+void read_sleep(Reading& reading, Section& root) {
+  const Json* written = root.child("sleep");
+  if (written == nullptr) return;
+  Section sleep(written, root.pointer_to("sleep"), reading.mistakes);
+  SleepSettings read{};
+  read.speed = sleep.value(table::of(table::sleep, "speed"));
+  read.acceleration = sleep.value(table::of(table::sleep, "acceleration"));
+  read.after = sleep.value(table::of(table::sleep, "after"));
+  reading.scene.sleep = read;
+  sleep.finish();
+  root.resolved["sleep"] = sleep.resolved;
+}
+
 void read_output(Reading& reading, Section& root) {
   Section output(root.child("output"), root.pointer_to("output"), reading.mistakes);
   OutputSettings& settings = reading.scene.output;

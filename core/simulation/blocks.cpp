@@ -54,6 +54,17 @@ void Blocks::set_supports(std::span<const Support> supports) {
   }
 }
 
+/// To the loops of the step what sleeps is a fixed body.
+void Blocks::set_asleep(std::span<const std::uint32_t> asleep) {
+  if (awake_.empty()) awake_ = blocks_;
+  asleep_.assign(asleep.begin(), asleep.end());
+  for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
+    blocks_[i] = is_asleep(i) ? kernels::Block{} : awake_[i];
+    blocks_[i].corner_begin = awake_[i].corner_begin;
+  }
+  if (asleep_.empty()) awake_.clear();
+}
+
 void Blocks::move(double dt, MotionState& motion) {
   workers_.over(blocks_.size(), chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     kernels_.move(blocks_.data(), dt, motion.bodies.data(), begin, end);
@@ -70,11 +81,12 @@ MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
   kernels::SpeedExtremes all;
   for (const kernels::SpeedExtremes& part : speeds_) all.add(part);
   for (const std::uint32_t body : others_) {
+    if (is_asleep(body)) continue;
     motion.move_boundary_of(model, body);
     all.add(speeds_of(motion, model.bodies[body]));
   }
   if (!all.any) return {};
-  if (some_fixed_) all.add({0, 0, 0, 0, 0, 0, true});
+  if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, true});
   if (!std::isfinite(all.sum)) return {std::numeric_limits<double>::quiet_NaN(), 0};
   const double dx = all.high_x - all.low_x, dy = all.high_y - all.low_y;
   return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy)};

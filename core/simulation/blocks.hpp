@@ -15,6 +15,9 @@ class Blocks {
   /// From now on these supports hold; bodies with any are left to the caller.
   void set_supports(std::span<const Support> supports);
   bool is_free(std::uint32_t body) const { return blocks_[body].free; }
+  /// [body] whether it stands, not 0; empty: none. All are awake when supports change.
+  void set_asleep(std::span<const std::uint32_t> asleep);
+  bool is_asleep(std::uint32_t body) const { return !asleep_.empty() && asleep_[body] != 0; }
 
   void move(double dt, MotionState& motion);  ///< Eq. 22
   /// Boundaries of all bodies follow (Eq. 11); returns how fast they are.
@@ -29,6 +32,8 @@ class Blocks {
   const kernels::BlockKernels& kernels_;
   Workers& workers_;
   std::vector<kernels::Block> blocks_;
+  std::vector<kernels::Block> awake_;  ///< blocks_ as they are awake; empty while all are
+  std::vector<std::uint32_t> asleep_;
   std::vector<std::uint32_t> others_;  ///< moving bodies whose boundary the kernels do not know
   bool some_fixed_ = false;
   std::vector<kernels::SpeedExtremes> speeds_;

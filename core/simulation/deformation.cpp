@@ -23,16 +23,32 @@ Deformation::Deformation(const Scene& scene, const Model& model, Workers& worker
       workspaces_(static_cast<std::size_t>(workers.threads()), sweep_.workspace()),
       sums_(model.partition.subdomains.size()),
       updated_(model.bodies.size()) {
+  lay_out_blocks(model, {});
+}
+
+/// What sleeps is left out.
+void Deformation::lay_out_blocks(const Model& model, std::span<const std::uint32_t> asleep) {
+  blocks_.clear();
   for (std::uint32_t batch = 0; batch < materials_.count(); ++batch) {
     bool open = false;
     for (std::uint32_t e = materials_.begin(batch); e < materials_.end(batch); ++e) {
-      const bool block = model.elements[e].patch[0] == no_patch;
+      const Element& element = model.elements[e];
+      const bool block = element.patch[0] == no_patch && (asleep.empty() || asleep[element.body] == 0);
       if (block && (!open || blocks_.back().count == ElementBuffer::most)) blocks_.push_back({batch, e, 0});
       if (block) ++blocks_.back().count;
       open = block;
     }
   }
   block_energies_.resize(blocks_.size());
+}
+
+void Deformation::set_asleep(const Model& model, std::span<const std::uint32_t> asleep) {
+  lay_out_blocks(model, asleep);
+}
+
+double Deformation::stored_in(const Model& model, std::uint32_t index) const {
+  const Body& body = model.bodies[index];
+  return body.element_begin < body.element_end ? energies_[model.first_element(body)] : 0;
 }
 
 Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt, bool keep) {
@@ -131,6 +147,7 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     const Element& element = model.elements[blocks.element + i];
     const double area = element.area;
     sum.stored += area * buffer.energy[i];
+    if (!energies_.empty()) energies_[blocks.element + i] = area * buffer.energy[i];
     sum.dissipated += area * buffer.dissipated[i];
     Matrix2& moment = motion.forces[element.body].moment;
     moment.xx -= area * buffer.stress[0][i];

@@ -34,6 +34,13 @@ class Deformation {
                           const StepConditions& conditions, bool keep, MotionState& motion,
                           VelocitiesAtStep& at_step);
 
+  /// [body] whether it stands and needs no forces, not 0; empty: none.
+  void set_asleep(const Model& model, std::span<const std::uint32_t> asleep);
+  /// From now on what each block stores is kept.
+  void keep_energies(const Model& model) { energies_.resize(model.elements.size()); }
+  /// J/m, in a body that moves as a whole, where energies are kept.
+  double stored_in(const Model& model, std::uint32_t body) const;
+
   /// [body] what the last call did to own patches.
   const std::vector<OwnPatches>& updated() const { return updated_; }
 
@@ -52,6 +59,7 @@ class Deformation {
   struct Blocks {
     std::uint32_t batch, element, count;
   };
+  void lay_out_blocks(const Model& model, std::span<const std::uint32_t> asleep);
   Energy apply_to_blocks(const Model& model, double dt, bool keep, MotionState& motion);
   Energy apply_to(const Model& model, const Blocks& blocks, double dt, bool keep, ElementBuffer& buffer,
                   MotionState& motion);
@@ -67,6 +75,7 @@ class Deformation {
 
   std::vector<Blocks> blocks_;
   std::vector<Energy> block_energies_;  ///< [entry of blocks_]
+  std::vector<double> energies_;        ///< [element] J/m stored in a block; empty where they are not kept
 };
 
 }  // namespace talus

@@ -119,9 +119,10 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
   const Update update = update_of(conditions);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
-    if (body.kinematics == Kinematics::fixed || blocks.is_free(static_cast<std::uint32_t>(i))) continue;
+    const auto index = static_cast<std::uint32_t>(i);
+    if (body.kinematics == Kinematics::fixed || blocks.is_free(index) || blocks.is_asleep(index)) continue;
     if (body.kinematics == Kinematics::covered) {
-      accelerate_patches(model, mass, static_cast<std::uint32_t>(i), supports[i], conditions, update,
+      accelerate_patches(model, mass, index, supports[i], conditions, update,
                          updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
       continue;
     }

@@ -27,7 +27,8 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   work_ahead_ = work.external_work_ahead;
 
   const double stored = l.kinetic + l.strain + l.contact;
-  const double lost = l.friction_loss + l.contact_damping_loss + l.global_damping_loss + l.material_loss;
+  const double lost =
+      l.friction_loss + l.contact_damping_loss + l.global_damping_loss + l.material_loss + l.sleep_loss;
   l.residual = stored + lost - l.external_work - initial_;
   l.throughput = std::max({l.throughput, initial_, stored + lost, std::abs(l.external_work)});
 }
@@ -37,6 +38,12 @@ void LedgerKeeper::lose_kinetic() {
   ledger_.global_damping_loss += ledger_.kinetic;
   ledger_.kinetic = 0;
   damping_ahead_ = work_ahead_ = 0;
+}
+
+void LedgerKeeper::lose_asleep(double kinetic, double damping_ahead) {
+  ledger_.sleep_loss += kinetic;
+  ledger_.kinetic -= kinetic;
+  damping_ahead_ -= damping_ahead;
 }
 
 double LedgerKeeper::residual_share() const {

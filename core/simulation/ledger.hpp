@@ -19,6 +19,10 @@ class LedgerKeeper {
   /// All velocities were just set to zero: their energy counts as taken by global damping.
   void lose_kinetic();
 
+  /// Bodies went to sleep after book(): their kinetic energy, and what damping was to take from them over the
+  /// half of the step that lies ahead.
+  void lose_asleep(double kinetic, double damping_ahead);
+
   /// Starts anew: what is stored now becomes the capital of t = 0.
   void reset() {
     const double floor = floor_;

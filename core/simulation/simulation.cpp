@@ -124,6 +124,7 @@ RunSummary Simulation::summary() const {
   summary.dt_limiter = s.limiter();
   summary.pair_searches = s.contacts.searches();
   summary.profile = s.profile;
+  if (s.sleep) summary.sleep = s.sleep->report(s.time);
   summary.largest_residual_share = std::max(summary.largest_residual_share, s.ledger.residual_share());
   if (summary.largest_penetration > 0) {
     summary.largest_penetration_pair = fmt::format("'{}' and '{}'", s.scene.bodies[s.deepest_pair.first].name,
@@ -290,9 +291,9 @@ std::vector<Contact> Simulation::contacts() const {
   const State& s = *state_;
   for (const BodyPair& pair : s.contacts.pairs()) {
     const Vec2 frame = s.model.bodies[pair.a].centre;
-    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
     const std::uint32_t a = s.numbering.outside(pair.a), b = s.numbering.outside(pair.b);
     const double sign = a <= b ? 1 : -1;
+    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const ContactReport& r = s.contacts.reports()[pair.slot_start + i];
       result.push_back({std::min(a, b),
                         std::max(a, b),
@@ -303,12 +304,12 @@ std::vector<Contact> Simulation::contacts() const {
                         r.slipping != 0});
     }
   }
-  return result;
   if (!s.numbering.outer.empty()) {
     std::stable_sort(result.begin(), result.end(), [](const Contact& p, const Contact& q) {
       return std::pair{p.body_a, p.body_b} < std::pair{q.body_a, q.body_b};
     });
   }
+  return result;
 }
 
 }  // namespace talus

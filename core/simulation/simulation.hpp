@@ -33,6 +33,7 @@ struct EnergyLedger {
   double strain = 0;
   double contact = 0;  ///< stored in contact springs
   double friction_loss = 0, contact_damping_loss = 0, global_damping_loss = 0, material_loss = 0;
+  double sleep_loss = 0;     ///< kinetic energy taken from islands that went to sleep
   double external_work = 0;  ///< gravity, loads, prescribed motion
   double residual = 0;       ///< what the sum above misses
   double throughput = 0;     ///< the largest energy in circulation so far; the residual is judged against it
@@ -65,6 +66,19 @@ struct Contact {
   bool slipping;
 };
 
+/// Islands that slept. The bounds hold where accelerations would not have grown: v + a T and v T + a T²/2 of
+/// the fastest corner of an island and of the one that accelerated most when it went to sleep.
+struct SleepReport {
+  std::uint64_t islands = 0, woken = 0;  ///< counted each time
+  std::size_t bodies_asleep = 0;         ///< at the end
+  double longest = 0;                    ///< s
+  double body_time = 0;                  ///< s, of all bodies together
+  double speed = 0, acceleration = 0;    ///< m/s and m/s² of a corner, the largest not followed
+  double velocity_bound = 0;             ///< m/s
+  double displacement_bound = 0;         ///< m
+  double kinetic_energy = 0;             ///< J/m that was taken
+};
+
 struct RunSummary {
   std::uint64_t steps = 0, settle_steps = 0;
   std::uint64_t pair_searches = 0;
@@ -75,6 +89,7 @@ struct RunSummary {
   std::string largest_penetration_pair;
   double largest_residual_share = 0;  ///< of the throughput
   std::vector<std::string> warnings;
+  std::optional<SleepReport> sleep;  ///< where the scene lets islands sleep
   Profile profile{false};
 };
 

@@ -45,6 +45,10 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       rotation(model.bodies.size(), 0.0),
       last_turn(model.bodies.size()),
       profile(settings.profile) {
+  if (scene.sleep) {
+    sleep.emplace(*scene.sleep, model, stage);
+    deformation.keep_energies(model);
+  }
   summary.critical_dt = critical.dt;
   summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
@@ -90,13 +94,16 @@ void Simulation::State::forces() {
   profile.enter(Phase::boundary);
   motion.clear_forces(model);
   speeds = blocks.follow(model, motion);  // Eq. 11
+  const Vec2 pull = gravity();
+  if (sleep && !settling) sleep->watch(time, pull, workers, sleeping_parts());
   profile.enter(Phase::neighbours);
   if (contacts.find_pairs(model, motion, dt_behind * speeds.largest)) vote_again();  // Table 1, 1
+  const bool may_sleep_now = may_sleep();
+  observed = observed || may_sleep_now;
   profile.enter(Phase::contacts);
   const double interface_work = evaluate_contacts();  // Eqs. 28–48
   profile.enter(Phase::loads);
   loads.apply(motion, settling ? 0 : time, dt_behind);  // Eqs. 19–20
-  const Vec2 pull = gravity();
   const Damping& how = settling ? scene.settle->damping : stage.damping;
   const bool at_once = !forces_first(how);
   profile.enter(Phase::materials);
@@ -110,11 +117,17 @@ void Simulation::State::forces() {
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
                                                  at_time);  // Eqs. 18, 23–24
+  if (sleep) strain_energy.stored += sleep->strain_energy();
   profile.enter(Phase::velocities);
+  if (may_sleep_now) sleep->choose(time, sleeping_parts());
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
                                            at_time, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
+  if (may_sleep_now) {
+    const Sleep::Taken taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
+    ledger.lose_asleep(taken.kinetic, taken.damping_loss_ahead);
+  }
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic)) {
     motion.stop();
@@ -122,6 +135,11 @@ void Simulation::State::forces() {
   }
   profile.enter(Phase::checks);
   fresh = false;
+}
+
+/// Islands go to sleep in steps as long as the one before, of which velocities at t_n are kept.
+bool Simulation::State::may_sleep() const {
+  return sleep && !settling && dt_behind > 0 && dt_behind == plan.dt && sleep->due(time);
 }
 
 /// Whether all forces have to be known before any patch can go on.
@@ -136,6 +154,10 @@ double Simulation::State::evaluate_contacts() {
   const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling, observed};
   const double before = interfaces_changed ? contacts.with_former_interfaces(model, motion, conditions) : 0;
   contact_totals = contacts.evaluate(model, motion, conditions);
+  if (sleep) {
+    sleep->wake(contacts.touched(), time, sleeping_parts());
+    contact_totals.stored += sleep->contact_energy();
+  }
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;
   return work;
@@ -168,6 +190,7 @@ void Simulation::State::begin_due_stages() {
   if (settling) return;
   while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
     stage = scene.stages[stages_begun++].settings;
+    if (sleep) sleep->begin_stage(stage, time, sleeping_parts());
     contacts.set_interfaces(stage.interface_values);
     blocks.set_supports(stage.supports);
     interfaces_changed = true;

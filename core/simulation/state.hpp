@@ -13,19 +13,20 @@
 #include "simulation/profile.hpp"
 #include "simulation/relaxation.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/sleep.hpp"
 #include "simulation/time_step.hpp"
 
-namespace talus {
 #include <optional>
 
+namespace talus {
 
 /// Everything a simulation holds.
 struct Simulation::State {
   State(Scene scene, const RunSettings& settings);
 
-  Scene scene;
   Numbering numbering;            ///< the only numbers that leave are those of the scene as it was given
   std::optional<Scene> as_given;  ///< where bodies have other numbers within
+  Scene scene;
   RunSettings settings;
   StageSettings stage;  ///< what holds now
   Workers workers;
@@ -39,6 +40,7 @@ struct Simulation::State {
   Relaxation relaxation;
   StepVote votes;
   CriticalStep critical;  ///< with the neighbours that bodies have now
+  std::optional<Sleep> sleep;
 
   double time = 0;       ///< s, t_n
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
@@ -93,6 +95,8 @@ struct Simulation::State {
   Vec2 gravity() const;
   bool settled() const;
   double evaluate_contacts();
+  bool may_sleep() const;
+  Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion, at_time}; }
   double energy_floor() const;
   void remember_deepest();
   void check_step() const;

@@ -44,6 +44,18 @@ const BadPart bad_timings[] = {
      "/settle/until",
      "0",
      {"0 is out of range", "greater than 0"}},
+    {"a speed of rest that is none",
+     R"("sleep": {"speed": 0})",
+     "/sleep/speed",
+     "0",
+     {"0 is out of range", "[m/s] greater than 0"}},
+    {"sleep after no time", R"("sleep": {"after": 0})", "/sleep/after", "0", {"[s] greater than 0"}},
+    {"sleep with an acceleration that is no number",
+     R"("sleep": {"acceleration": "small"})",
+     "/sleep/acceleration",
+     "\"small\"",
+     {"[m/s2]"}},
+    {"sleep that is no section", R"("sleep": true)", "/sleep", "true", {"true is not allowed here"}},
     {"stick that is no truth value",
      R"("settle": {"duration": 1, "damping": 1, "hold_stick": "no"})",
      "/settle/hold_stick",
@@ -92,6 +104,21 @@ TEST_CASE("settling has its own damping, and may end early and let friction slip
   CHECK(scene.settle->until == 1e-4);
   CHECK_FALSE(scene.settle->hold_stick);
   CHECK(scene.damping.kind == Damping::Kind::constant);
+  CHECK(sample::read(scene.resolved).resolved == scene.resolved);
+}
+
+TEST_CASE("islands sleep only where a scene lets them", "[scene]") {
+  CHECK_FALSE(sample::read(sample::good).sleep.has_value());
+  const Scene plain = sample::read(good_with(R"("sleep": {})"));
+  REQUIRE(plain.sleep.has_value());
+  CHECK(plain.sleep->speed == 1e-5);
+  CHECK(plain.sleep->acceleration == 1e-3);
+  CHECK(plain.sleep->after == 0.05);
+  const Scene scene =
+      sample::read(good_with(R"("sleep": {"speed": 1e-4, "acceleration": 0.02, "after": 0.3})"));
+  CHECK(scene.sleep->speed == 1e-4);
+  CHECK(scene.sleep->acceleration == 0.02);
+  CHECK(scene.sleep->after == 0.3);
   CHECK(sample::read(scene.resolved).resolved == scene.resolved);
 }
 

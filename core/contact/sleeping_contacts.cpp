@@ -1,0 +1,68 @@
+#include "contact/contact_stage.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace talus {
+namespace {
+
+/// Of ContactStage::ask_again_: no way that bodies travel asks for this pair.
+constexpr double asleep = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void ContactStage::set_asleep(std::span<const std::uint32_t> island) {
+  island_.assign(island.begin(), island.end());
+  hold_sleeping_pairs();
+}
+
+/// Whether neither body moves. Islands do not touch each other, or they would be one.
+bool ContactStage::sleeps(const BodyPair& pair) const {
+  if (island_.empty()) return false;
+  const bool a = island_[pair.a] != 0, b = island_[pair.b] != 0;
+  return (a || b) && (a || fixed_[pair.a] != 0) && (b || fixed_[pair.b] != 0);
+}
+
+void ContactStage::hold_sleeping_pairs() {
+  border_.clear();
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    if (sleeps(pairs_[i])) {
+      ask_again_[i] = asleep;
+      damping_power_[i] = 0;
+      continue;
+    }
+    if (ask_again_[i] == asleep) ask_again_[i] = 0;
+    if (!island_.empty() && (island_[pairs_[i].a] != 0 || island_[pairs_[i].b] != 0)) border_.push_back(i);
+  }
+  keep_sleeping_history();
+}
+
+/// The arrays of history change places in each step; contacts that are not evaluated have theirs in both.
+void ContactStage::keep_sleeping_history() {
+  for (const BodyPair& pair : pairs_) {
+    if (!sleeps(pair)) continue;
+    const auto start = static_cast<std::ptrdiff_t>(std::size_t{pair.slot_start} * history_doubles_);
+    std::copy_n(history_.begin() + start, std::size_t{pair.contact_count} * history_doubles_,
+                next_history_.begin() + start);
+  }
+}
+
+/// Whether islands were touched that have to be evaluated, too.
+bool ContactStage::wake_touched() {
+  std::vector<std::uint32_t> touched;
+  for (const std::uint32_t i : border_) {
+    if (ask_again_[i] <= travelled_ && pair_reports_[i].contact_count > 0)
+      touched.push_back(std::max(island_[pairs_[i].a], island_[pairs_[i].b]));
+  }
+  if (touched.empty()) return false;
+  touched_.insert(touched_.end(), touched.begin(), touched.end());
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  for (std::uint32_t& island : island_) {
+    if (std::binary_search(touched_.begin(), touched_.end(), island)) island = 0;
+  }
+  hold_sleeping_pairs();
+  return true;
+}
+
+}  // namespace talus

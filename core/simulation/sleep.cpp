@@ -1,0 +1,270 @@
+#include "simulation/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace talus {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+/// Share of the time that bodies have to be at rest: so long a fast one is not looked at again, and so often
+/// islands are sought.
+constexpr double look_share = 0.125;
+constexpr std::size_t watch_chunk = 256;  ///< bodies
+
+bool varies_in_time(const Function& function) {
+  return std::any_of(function.terms.begin(), function.terms.end(),
+                     [](const Product& term) { return term.time.has_value(); });
+}
+
+bool varies_in_time(const VectorFunction& functions) {
+  return varies_in_time(functions[0]) || varies_in_time(functions[1]);
+}
+
+bool drives(const Support& support) {
+  return support.x.value_or(0) != 0 || support.y.value_or(0) != 0 || support.rotation.value_or(0) != 0;
+}
+
+double squared_speed(const Model& model, const Body& body, Vec2 velocity, const Matrix2& rate) {
+  double largest = 0;
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    const double x = model.reference_x[c], y = model.reference_y[c];
+    const double vx = velocity.x + rate.xx * x + rate.xy * y, vy = velocity.y + rate.yx * x + rate.yy * y;
+    largest = std::max(largest, vx * vx + vy * vy);
+  }
+  return largest;
+}
+
+Matrix2 rate_of(const Body& body, const BodyMotion& motion) {
+  return body.kinematics == Kinematics::rigid ? spin_rate(motion) : motion.rate;
+}
+
+}  // namespace
+
+Sleep::Sleep(const SleepSettings& settings, const Model& model, const StageSettings& stage)
+    : settings_(settings),
+      quiet_since_(model.bodies.size(), 0.0),
+      island_(model.bodies.size(), 0),
+      parent_(model.bodies.size()) {
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.moves(b) || model.covered(b)) quiet_since_[b] = never;
+  }
+  exempt(stage);
+}
+
+/// What changes with time acts on bodies that are awake.
+void Sleep::exempt(const StageSettings& stage) {
+  awake_until_.assign(quiet_since_.size(), 0.0);
+  const auto until = [&](std::uint32_t body, double time) {
+    awake_until_[body] = std::max(awake_until_[body], time);
+  };
+  for (std::uint32_t b = 0; b < stage.supports.size(); ++b) {
+    if (drives(stage.supports[b])) until(b, never);
+  }
+  for (const PointLoad& load : stage.loads) {
+    if (varies_in_time(load.force)) until(load.body, never);
+  }
+  for (const SurfaceLoad& load : stage.surface_loads) {
+    if (varies_in_time(load.traction) || varies_in_time(load.pressure)) until(load.body, never);
+  }
+  for (const PrescribedSurface& prescribed : stage.prescribed) {
+    until(prescribed.body, prescribed.ramp);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const bool varies = prescribed.displacement[axis] && varies_in_time(*prescribed.displacement[axis]);
+      const bool moves = prescribed.velocity[axis] && !prescribed.velocity[axis]->zero();
+      if (varies || moves) until(prescribed.body, never);
+    }
+  }
+}
+
+void Sleep::begin_stage(const StageSettings& stage, double time, Parts parts) {
+  std::vector<std::uint32_t> all;
+  for (const Island& island : islands_) all.push_back(island.number);
+  wake(all, time, parts);
+  exempt(stage);
+  calm_since_ = time;
+}
+
+void Sleep::watch(double time, Vec2 gravity, Workers& workers, Parts parts) {
+  if (gravity.x != gravity_.x || gravity.y != gravity_.y) {
+    std::vector<std::uint32_t> all;
+    for (const Island& island : islands_) all.push_back(island.number);
+    wake(all, time, parts);
+    gravity_ = gravity;
+    calm_since_ = time;
+  }
+  const double limit = settings_.speed * settings_.speed, pause = look_share * settings_.after;
+  const auto fast = [&](const Body& body) {
+    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+      const BoundaryCorner& corner = parts.motion.corners[c];
+      if (!(corner.vx * corner.vx + corner.vy * corner.vy < limit)) return true;
+    }
+    return false;
+  };
+  workers.over(quiet_since_.size(), watch_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      if (time < quiet_since_[b] || island_[b] != 0) continue;
+      if (fast(parts.model.bodies[b])) quiet_since_[b] = time + pause;
+    }
+  });
+}
+
+std::uint32_t Sleep::root(std::uint32_t body) {
+  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+  return body;
+}
+
+void Sleep::choose(double time, Parts parts) {
+  next_look_ = time + look_share * settings_.after;
+  chosen_.clear();
+  before_.clear();
+  const double since = time - settings_.after;
+  const auto rests = [&](std::size_t b) {
+    return quiet_since_[b] <= since && awake_until_[b] <= since && island_[b] == 0;
+  };
+  bool any = false;
+  for (std::size_t b = 0; b < quiet_since_.size() && !any; ++b) any = rests(b);
+  if (!any || calm_since_ > since) return;
+
+  std::iota(parent_.begin(), parent_.end(), 0);
+  for (const BodyPair& pair : parts.contacts.pairs()) {
+    if (pair.contact_count == 0 || !parts.model.moves(pair.a) || !parts.model.moves(pair.b)) continue;
+    const std::uint32_t a = root(pair.a), b = root(pair.b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<char> restless(parent_.size(), 0);  // [root]
+  for (std::uint32_t b = 0; b < parent_.size(); ++b) {
+    if (!rests(b)) restless[root(b)] = 1;
+  }
+  for (std::uint32_t b = 0; b < parent_.size(); ++b) {
+    if (restless[root(b)] != 0) continue;
+    chosen_.push_back(b);
+    before_.push_back(parts.motion.bodies[b]);
+  }
+}
+
+Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, Parts parts) {
+  if (chosen_.empty()) return {};
+  const Model& model = parts.model;
+  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
+  std::vector<double> speed(parent_.size(), 0.0), acceleration(parent_.size(), 0.0);  // [root]
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const Body& body = model.bodies[chosen_[i]];
+    const BodyMotion &before = before_[i], &after = parts.motion.bodies[chosen_[i]];
+    const Matrix2 p = rate_of(body, before), q = rate_of(body, after);
+    const double fastest = std::sqrt(squared_speed(model, body, after.velocity, q));
+    const double change = std::sqrt(squared_speed(
+        model, body, {after.velocity.x - before.velocity.x, after.velocity.y - before.velocity.y},
+        {q.xx - p.xx, q.xy - p.xy, q.yx - p.yx, q.yy - p.yy}));
+    const std::uint32_t island = root(chosen_[i]);
+    speed[island] = std::max(speed[island], fastest);
+    acceleration[island] = std::max(acceleration[island], change / dt);
+  }
+
+  Taken taken;
+  std::vector<std::uint32_t> entry(parent_.size(), 0);  // [root] 1 + that of islands_
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const std::uint32_t b = chosen_[i], of = root(b);
+    if (!(speed[of] < settings_.speed && acceleration[of] <= settings_.acceleration)) continue;
+    if (entry[of] == 0) {
+      islands_.push_back({++last_number_, time, speed[of], acceleration[of]});
+      entry[of] = static_cast<std::uint32_t>(islands_.size());
+      ++past_.islands;
+    }
+    Island& island = islands_[entry[of] - 1];
+    const Body& body = model.bodies[b];
+    BodyMotion& now = parts.motion.bodies[b];
+    const double density = body.mass / body.moments.area;
+    BodyMotion middle = now;
+    middle.velocity = {(before_[i].velocity.x + now.velocity.x) / 2,
+                       (before_[i].velocity.y + now.velocity.y) / 2};
+    middle.spin = (before_[i].spin + now.spin) / 2;
+    middle.rate = {(before_[i].rate.xx + now.rate.xx) / 2, (before_[i].rate.xy + now.rate.xy) / 2,
+                   (before_[i].rate.yx + now.rate.yx) / 2, (before_[i].rate.yy + now.rate.yy) / 2};
+    taken.kinetic += kinetic_energy(body, density, before_[i], now);
+    taken.damping_loss_ahead +=
+        conditions.damping * kinetic_energy(body, density, middle, middle) * conditions.dt_ahead;
+    island.strain_energy += parts.deformation.stored_in(model, b);
+    ++island.bodies;
+    island_[b] = island.number;
+    now.velocity = {};
+    now.rate = {};
+    now.spin = 0;
+    parts.at_time.bodies[b] = now;
+    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c)
+      parts.motion.corners[c].vx = parts.motion.corners[c].vy = 0;
+  }
+  if (std::all_of(entry.begin(), entry.end(), [](std::uint32_t e) { return e == 0; })) return taken;
+  past_.kinetic_energy += taken.kinetic;
+  for (std::size_t i = 0; i < parts.contacts.pairs().size(); ++i) {
+    const BodyPair& pair = parts.contacts.pairs()[i];
+    const std::uint32_t number = std::max(island_[pair.a], island_[pair.b]);
+    // Islands that sleep already have theirs; the new ones come last.
+    if (number == 0 || pair.contact_count == 0) continue;
+    Island& island = *std::lower_bound(islands_.begin(), islands_.end(), number,
+                                       [](const Island& p, std::uint32_t n) { return p.number < n; });
+    if (island.since == time) island.contact_energy += parts.contacts.stored_in(i);
+  }
+  add_up();
+  tell(parts);
+  return taken;
+}
+
+void Sleep::wake(std::span<const std::uint32_t> numbers, double time, Parts parts) {
+  if (numbers.empty()) return;
+  for (const std::uint32_t number : numbers) {
+    const auto island =
+        std::find_if(islands_.begin(), islands_.end(), [&](const Island& p) { return p.number == number; });
+    enter(*island, time, past_);
+    ++past_.woken;
+    islands_.erase(island);
+  }
+  for (std::size_t b = 0; b < island_.size(); ++b) {
+    if (std::find(numbers.begin(), numbers.end(), island_[b]) == numbers.end()) continue;
+    island_[b] = 0;
+    quiet_since_[b] = time;
+  }
+  add_up();
+  tell(parts);
+}
+
+/// If nothing had made the acceleration grow.
+void Sleep::enter(const Island& island, double time, SleepReport& report) const {
+  const double asleep = time - island.since;
+  report.longest = std::max(report.longest, asleep);
+  report.body_time += static_cast<double>(island.bodies) * asleep;
+  report.speed = std::max(report.speed, island.speed);
+  report.acceleration = std::max(report.acceleration, island.acceleration);
+  report.velocity_bound = std::max(report.velocity_bound, island.speed + island.acceleration * asleep);
+  report.displacement_bound =
+      std::max(report.displacement_bound, (island.speed + island.acceleration * asleep / 2) * asleep);
+}
+
+SleepReport Sleep::report(double time) const {
+  SleepReport report = past_;
+  for (const Island& island : islands_) {
+    enter(island, time, report);
+    report.bodies_asleep += island.bodies;
+  }
+  return report;
+}
+
+void Sleep::add_up() {
+  contact_energy_ = strain_energy_ = 0;
+  for (const Island& island : islands_) {
+    contact_energy_ += island.contact_energy;
+    strain_energy_ += island.strain_energy;
+  }
+}
+
+void Sleep::tell(Parts parts) {
+  const std::span<const std::uint32_t> sleeping =
+      islands_.empty() ? std::span<const std::uint32_t>{} : std::span<const std::uint32_t>(island_);
+  parts.blocks.set_asleep(sleeping);
+  parts.contacts.set_asleep(sleeping);
+  parts.deformation.set_asleep(parts.model, sleeping);
+}
+
+}  // namespace talus
