@@ -51,11 +51,12 @@ void print_summary(const RunResult& result, const std::filesystem::path& folder)
   }
   if (summary.sleep) {
     const SleepReport& sleep = *summary.sleep;
-    fmt::print("{} islands went to sleep, {} woke; {} bodies asleep at the end, {:.4g} s the longest\n",
-               sleep.islands, sleep.woken, sleep.bodies_asleep, sleep.longest);
     fmt::print(
-        "not followed: at most {:.3g} m/s and {:.3g} m/s2 at first, so {:.3g} m/s and {:.3g} m where "
-        "that did not grow; {:.3g} J/m taken\n",
+        "islands that slept: {}, that woke: {}; bodies asleep at the end: {}; longest sleep {:.4g} s\n",
+        sleep.islands, sleep.woken, sleep.bodies_asleep, sleep.longest);
+    fmt::print(
+        "not followed: corners of {:.3g} m/s and {:.3g} m/s2, so up to {:.3g} m/s and {:.3g} m; "
+        "{:.3g} J/m taken\n",
         sleep.speed, sleep.acceleration, sleep.velocity_bound, sleep.displacement_bound,
         sleep.kinetic_energy);
   }

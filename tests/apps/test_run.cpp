@@ -65,6 +65,35 @@ TEST_CASE("a profile names the parts of the steps, and instruction sets are reco
   CHECK(scalar["state_hash"] == best["state_hash"]);
 }
 
+TEST_CASE("a run tells and records what slept", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  // So large that the block stands still in the air.
+  const Call call = call_talus(
+      scratch.folder(),
+      {"run", "small.json", "--set", R"(/sleep={"speed": 1e3, "acceleration": 1e6, "after": 1e-3})"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out,
+             Contains("islands that slept: 1, that woke: 0; bodies asleep at the end: 1; longest sleep"));
+  CHECK_THAT(call.out, Contains("not followed: corners of"));
+  const auto record = json_of(scratch / "out/small/run.json");
+  const auto& sleep = record["sleep"];
+  CHECK(sleep["islands"] == 1);
+  CHECK(sleep["bodies_asleep"] == 1);
+  CHECK(sleep["kinetic_energy [J/m]"] == record["ledger"]["sleep_loss [J/m]"]);
+  const double speed = sleep["speed [m/s]"], acceleration = sleep["acceleration [m/s2]"],
+               longest = sleep["longest [s]"];
+  CHECK(speed > 0);
+  CHECK(acceleration > 0);
+  CHECK(longest > 0);
+  CHECK(sleep["velocity_bound [m/s]"] == Approx(speed + acceleration * longest));
+  CHECK(sleep["displacement_bound [m]"] == Approx(longest * (speed + acceleration * longest / 2)));
+
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "awake"}).code == 0);
+  CHECK_FALSE(json_of(scratch / "awake/run.json").contains("sleep"));
+}
+
 TEST_CASE("what was resolved runs to the same state", "[apps][run]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

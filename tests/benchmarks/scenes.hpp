@@ -11,6 +11,7 @@ struct Load {
   std::string generator;   ///< script of scenes/generate, with its arguments
   std::string law;         ///< contact law
   bool one_sided = false;  ///< roles by priority instead of both roles: one evaluation of each overlap
+  bool sleep = false;      ///< islands at rest sleep
 };
 
 /// What a script of scenes/generate writes, by its name and arguments. Throws std::runtime_error when it

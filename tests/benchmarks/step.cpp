@@ -95,6 +95,14 @@ void register_laws() {
   }
 }
 
+/// A wall that has come to rest, followed on or asleep.
+void register_rest() {
+  for (const bool sleep : {false, true}) {
+    register_case(fmt::format("at_rest/411/{}", sleep ? "asleep" : "followed"),
+                  {"brick_wall.py --courses 20 --bricks 20", "overlap_area", false, sleep}, 0.45);
+  }
+}
+
 /// Many blocks, deformable and rigid, with both roles or one; all of them touch soon after the start.
 void register_crowds() {
   for (const char* cover : {"block", "rigid"}) {
@@ -124,6 +132,7 @@ void register_crowds() {
 
 void register_steps() {
   register_laws();
+  register_rest();
   register_crowds();
 }
 
