@@ -23,7 +23,7 @@ Usage usage_of_blocks() {
       "The result reads and runs as the scene itself does.",
       "SCENE",
       "  talus blocks scenes/vaiont.json -o scenes/vaiont_plain.json\n"
-      "  talus blocks scenes/vaiont.json --set /blocks/0/joint_sets/0/seed=2 | less\n"};
+      "  talus blocks scenes/vaiont.json --set /blocks/0/split/seed=2 | less\n"};
   usage.options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
                               "file for the result, which is replaced (default: the standard output)");
   add_scene_options(usage);

@@ -80,11 +80,10 @@ void print_covers(const Scene& scene, const Simulation& simulation) {
 void print_time(const Scene& scene, const Simulation& simulation) {
   const double critical = simulation.critical_dt();
   const double dt = scene.time.dt.value_or(simulation.automatic_dt());
-  const std::string& limiter = simulation.summary().dt_limiter;
   print_row("time",
             fmt::format("to {:.6g} s, step {:.6g} s ({}): {:.3g} of critical, {:.6g} s", scene.time.end, dt,
                         scene.time.dt ? "as given" : "automatic", dt / critical, critical));
-  if (!limiter.empty()) print_row("limited by", limiter);
+  if (!scene.time.dt && std::isfinite(dt)) print_row("limited by", simulation.automatic_limiter());
   const double steps = std::ceil(scene.time.end / dt);
   if (std::isfinite(steps)) print_row("steps", fmt::format("about {:.0f}", std::max(steps, 1.0)));
   if (scene.settle) {

@@ -28,11 +28,17 @@ struct Omissible {
   std::string_view section, key;
 };
 constexpr Omissible omissible[] = {
-    {"", "materials"},      {"", "cover"},
-    {"", "contact"},        {"", "settle"},
-    {"", "time"},           {"", "output"},
-    {"", "limits"},         {"/bodies/*", "cover"},
-    {"/bodies/*", "drive"}, {"/bodies/*", "surfaces"},
+    {"", "materials"},
+    {"", "cover"},
+    {"", "contact"},
+    {"", "settle"},
+    {"", "time"},
+    {"", "output"},
+    {"", "limits"},
+    {"", "sleep"},
+    {"/bodies/*", "cover"},
+    {"/bodies/*", "drive"},
+    {"/bodies/*", "surfaces"},
     {"/stages/*", "set"},
 };
 

@@ -145,9 +145,9 @@ inline constexpr Parameter time[] = {
     number("dt", "s", automatic, above_zero, unbounded,
            "Time step; \"auto\" takes it from votes of bodies and contacts."),
     number("safety", "-", 0.2, above_zero, 0.9,
-           "The automatic step is the smaller of safety times the critical step of contacts and supports "
-           "alone and "
-           "the larger of 0.6 and safety times that of the whole scene; at most 0.4 where bodies can meet."),
+           "The automatic step is min(safety · critical step of undamped contacts and supports alone, "
+           "max(0.6, safety) · that of the whole scene), and safety · the latter without any; at most 0.4 "
+           "where bodies can meet."),
 };
 
 inline constexpr Parameter sleep[] = {

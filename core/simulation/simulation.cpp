@@ -115,6 +115,9 @@ double Simulation::critical_dt() const {
 double Simulation::automatic_dt() const {
   return automatic_step(state_->votes.anyhow(), state_->scene.time.safety);
 }
+std::string Simulation::automatic_limiter() const {
+  return limiter_of_automatic(state_->scene, state_->votes.anyhow());
+}
 const EnergyLedger& Simulation::ledger() const {
   return state_->ledger.ledger();
 }

@@ -121,12 +121,13 @@ class Simulation {
   /// `interrupted`, polled once per step, ends the call early with true. Throws NumericalTrouble.
   bool advance(const std::atomic<bool>* interrupted = nullptr);
 
-  double time() const;             ///< s
-  bool history_due() const;        ///< whether the present output time is one of the history
-  bool frame_due() const;          ///< whether it is one of the frames
-  double critical_dt() const;      ///< s, bound over strain modes and contacts, whoever meets whom
-  double automatic_dt() const;     ///< s, what "auto" takes as long as nothing moves too fast for it
-  std::string state_hash() const;  ///< of displacements, velocities and contact history
+  double time() const;                    ///< s
+  bool history_due() const;               ///< whether the present output time is one of the history
+  bool frame_due() const;                 ///< whether it is one of the frames
+  double critical_dt() const;             ///< s, bound over strain modes and contacts, whoever meets whom
+  double automatic_dt() const;            ///< s, what "auto" takes as long as nothing moves too fast for it
+  std::string automatic_limiter() const;  ///< who limits automatic_dt(), in words
+  std::string state_hash() const;         ///< of displacements, velocities and contact history
 
   std::size_t body_count() const;
   std::size_t block_count() const;  ///< bodies with unknowns

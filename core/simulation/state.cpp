@@ -13,7 +13,7 @@ namespace {
 constexpr double speed_share = 0.1;     ///< of the smallest width, that two bodies may approach in a step
 constexpr double warn_residual = 0.01;  ///< of the energy throughput
 constexpr double rounding = 1e-9;       ///< share by which a step may be stretched rather than split in two
-/// Of the critical step: above it a bounce gains or loses a tenth of its speed.
+/// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
 constexpr double restless = 0.4;
 constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
 
@@ -254,7 +254,7 @@ std::string Simulation::State::limiter() const {
     case Limit::critical:
       break;
   }
-  return limiter_of(scene, planned_with);
+  return limiter_of_automatic(scene, planned_with);
 }
 
 std::string Simulation::State::place(std::uint32_t body) const {
@@ -338,12 +338,18 @@ void Simulation::State::check_balance() {
 }
 
 void Simulation::State::warn_of_large_step() {
-  if (!scene.time.dt || plan.dt <= restless * critical.dt) return;
-  summary.warnings.push_back(
-      fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}); above {} of it contacts "
-                  "gain or lose energy, above "
-                  "1 the run may blow up",
-                  plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical), restless));
+  if (!scene.time.dt) return;
+  if (plan.dt > critical.dt) {
+    summary.warnings.push_back(
+        fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): the run may blow up",
+                    plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical)));
+  } else if (plan.dt > restless * critical.spring_dt) {
+    summary.warnings.push_back(fmt::format(
+        "the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s of contacts and supports alone (body "
+        "'{}'); above {} of it contacts gain or lose energy",
+        plan.dt, plan.dt / critical.spring_dt, critical.spring_dt, scene.bodies[critical.spring_body].name,
+        restless));
+  }
 }
 
 void Simulation::State::warn_of_initial_overlap() {

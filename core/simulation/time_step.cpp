@@ -187,8 +187,9 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
     const bool supported =
         std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
     const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
-    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.spring_lambda,
-                        vote.gamma, contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
+    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda,
+                        contacts_alone ? 0.0 : vote.spring_lambda, vote.spring_lambda, vote.gamma,
+                        contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
                         model.bodies[i].contact_mass, i, vote.elastic_lambda > 0.5 * vote.lambda});
   }
 }
@@ -196,15 +197,21 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
 template <class Share>
 CriticalStep StepVote::count(const Share& share) const {
   constexpr double none = std::numeric_limits<double>::infinity();
-  CriticalStep smallest{none, none, 0, false};
+  CriticalStep smallest{none, none, 0, 0, false};
   for (const Ballot& ballot : ballots_) {
-    const double lambda = ballot.lambda_alone + share(ballot) * (ballot.lambda - ballot.lambda_alone);
-    smallest.spring_dt = std::min(smallest.spring_dt, stable_step(share(ballot) * ballot.springs, 0));
-    const double dt = stable_step(lambda, ballot.gamma);
-    if (!(dt < smallest.dt)) continue;
-    smallest.dt = dt;
-    smallest.body = ballot.body;
-    smallest.strained = ballot.strained;
+    const double part = share(ballot);
+    const auto between = [&](double alone, double with) { return alone + part * (with - alone); };
+    const double bounce = stable_step(between(ballot.springs_alone, ballot.springs), 0);
+    if (bounce < smallest.spring_dt) {
+      smallest.spring_dt = bounce;
+      smallest.spring_body = ballot.body;
+    }
+    const double dt = stable_step(between(ballot.lambda_alone, ballot.lambda), ballot.gamma);
+    if (dt < smallest.dt) {
+      smallest.dt = dt;
+      smallest.body = ballot.body;
+      smallest.strained = ballot.strained;
+    }
   }
   return smallest;
 }
@@ -229,6 +236,13 @@ double automatic_step(const CriticalStep& critical, double safety) {
   constexpr double most_of_stable = 0.6;
   if (std::isinf(critical.spring_dt)) return safety * critical.dt;
   return std::min(safety * critical.spring_dt, std::max(safety, most_of_stable) * critical.dt);
+}
+
+std::string limiter_of_automatic(const Scene& scene, const CriticalStep& step) {
+  const double safety = scene.time.safety;
+  if (std::isinf(step.spring_dt) || automatic_step(step, safety) < safety * step.spring_dt)
+    return limiter_of(scene, step);
+  return fmt::format("body '{}': its contacts and supports", scene.bodies[step.spring_body].name);
 }
 
 std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model) {

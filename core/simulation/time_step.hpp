@@ -12,13 +12,13 @@
 namespace talus {
 
 struct CriticalStep {
-  double dt;           ///< s; infinite if nothing vibrates
-  double spring_dt;    ///< s, with contacts and supports alone, undamped: what a bounce is judged by
-  std::uint32_t body;  ///< who limits it
-  bool strained;       ///< mostly by its strain modes, not by its contacts
+  double dt;         ///< s; infinite if nothing vibrates
+  double spring_dt;  ///< s, with contacts and supports alone, undamped: what a bounce is judged by
+  std::uint32_t body, spring_body;  ///< who limits them
+  bool strained;                    ///< dt mostly by strain modes, not by contacts
 };
 
-/// In words, who limits the step.
+/// In words, who limits the critical step.
 std::string limiter_of(const Scene& scene, const CriticalStep& step);
 
 /// Upper bound of the stable step of central differences: the smallest vote of all moving bodies, each over
@@ -47,9 +47,9 @@ class StepVote {
   /// The largest eigenvalue is convex in the factor of the contact springs: between none and the largest it
   /// stays below the chord.
   struct Ballot {
-    double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
-    double springs;               ///< 1/s², of the springs times `factor` alone
-    double gamma;                 ///< 1/s
+    double lambda_alone, lambda;    ///< 1/s², without contacts, and with the springs times `factor`
+    double springs_alone, springs;  ///< 1/s², the same without strain modes
+    double gamma;                   ///< 1/s
     double factor, mass;
     std::uint32_t body;
     bool strained;
@@ -62,6 +62,9 @@ class StepVote {
 
 /// The automatic step, s: min(safety · spring_dt, max(0.6, safety) · dt); safety · dt without springs.
 double automatic_step(const CriticalStep& critical, double safety);
+
+/// In words, who limits the automatic step.
+std::string limiter_of_automatic(const Scene& scene, const CriticalStep& step);
 
 /// What the treatment of slivers does to the stable step of a body without its contacts.
 struct SliverEffect {

@@ -109,3 +109,25 @@ TEST_CASE("Plain bodies side by side feel what they feel one by one", "[laws][la
   CHECK(worst < 1e-8);
   CHECK(worst_energy < 1e-8);
 }
+
+TEST_CASE("Springs without stiffness carry nothing, side by side as well", "[laws][lanes]") {
+  const std::string law = GENERATE("overlap_area", "frictionless");
+  Values interface {
+    {"normal_stiffness", 0}, { "normal_damping", 0.3 }
+  };
+  if (law == "overlap_area") interface = with(lively_interface(), {{"normal_stiffness", 0}});
+  LawBench bench(law, interface);
+  bench.bodies = {box(0, 0, 1, 1), box(0.2, 0.99, 1.1, 2)};
+  Uniform uniform;
+  for (HeldBody& body : bench.bodies) set_moving(uniform, body);
+  for (int step = 0; step < 2; ++step) {
+    const Evaluation found = bench.step(1e-5);
+    CHECK(found.size() == 0);
+    REQUIRE(found.pairs[0].contact_count == 1);
+    CHECK(found.pairs[0].slip_loss == 0);
+    CHECK(found.pairs[0].damping_power == 0);
+    // In the frame of the first body, whose centre is at (0.5, 0.5) m.
+    CHECK(found.contacts[0].x == Approx(0.1).margin(3e-5));  // they move at up to 1 m/s
+    CHECK(found.contacts[0].y == Approx(0.495).margin(3e-5));
+  }
+}

@@ -245,3 +245,20 @@ TEST_CASE("a bounce is judged by the springs, stability by the strain modes as w
   const CriticalStep alone = vote_of(text.read());
   CHECK(automatic_step(alone, 0.3) == Approx(0.3 * alone.dt).epsilon(1e-14));
 }
+
+TEST_CASE("who is near does not weaken supports", "[simulation][time_step]") {
+  WorkingScene text;
+  text.interface = stiff(1e3, 1e3);
+  text.bodies =
+      box("held", 0, 0, 1, 1, R"("surfaces": {"below": [0]})") + ", " + box("pebble", 40, 0, 40.1, 0.1);
+  text.rest =
+      R"("prescribed": [{"body": "held", "surface": "below", "stiffness": 1e10, "displacement": [0, 0]}],)";
+  const Scene scene = text.read();
+  const Model model = build_model(scene);
+  const StepVote votes(scene, settings_of(scene), model, ContactStage(scene, model, alone(), true));
+  constexpr double nobody = std::numeric_limits<double>::infinity();
+  const CriticalStep apart = votes.among(std::array{nobody, nobody});
+  CHECK(apart.spring_dt == Approx(votes.anyhow().spring_dt).epsilon(1e-12));
+  CHECK(apart.dt == Approx(votes.anyhow().dt).epsilon(1e-12));
+  CHECK(limiter_of_automatic(scene, apart) == "body 'held': its contacts and supports");
+}

@@ -219,7 +219,8 @@ class LaneContact {
   /// their ends, one tells the contact length.
   void find_tangent() {
     const Packs2 force = roles_ == 2 ? cells_[0].force - cells_[1].force : cells_[0].force;
-    const Pack inverse = 1.0 / simd::sqrt(simd::dot(force, force));
+    const Pack size = simd::sqrt(simd::dot(force, force));
+    const Pack inverse = simd::only_where(size > 0.0, 1.0 / size);  // springs may have no stiffness
     tangent_ = {-force.y * inverse, force.x * inverse};
     contact_length_ = simd::abs(simd::dot(cells_[0].arc, tangent_));
   }
@@ -425,9 +426,12 @@ class LaneContact {
       }
     }
     const Pack side = simd::load(g.side), inverse = 1.0 / load;
+    const Mask loaded = load > 0.0;
+    const Pack x = simd::select(loaded, moment.x * inverse, cells_[0].moment_x / cells_[0].area),
+               y = simd::select(loaded, moment.y * inverse, cells_[0].moment_y / cells_[0].area);
     alignas(64) double value[8][lanes];
-    simd::store(moment.x * inverse, value[0]);
-    simd::store(moment.y * inverse, value[1]);
+    simd::store(x, value[0]);
+    simd::store(y, value[1]);
     simd::store(side * normal.x, value[2]);
     simd::store(side * normal.y, value[3]);
     simd::store(side * report.tangential * tangent_.x, value[4]);

@@ -13,8 +13,10 @@ inline namespace TALUS_SIMD_LEVEL {
 struct TouchingPair {
   std::uint32_t pair;
   std::uint32_t start[2];  ///< [body a, b]
-  std::uint32_t pattern;   ///< which sides met a step ago: 4 · master side + slave side, as bits
-  bool unseen;             ///< `start` is of the previous step, and nobody has looked whether they overlap
+  /// Which sides met a step ago, 4 · master side + slave side as bits; of more than four sides, a number that
+  /// is alike where those are. It only decides who shares a group.
+  std::uint32_t pattern;
+  bool unseen;  ///< `start` is of an earlier step, and nobody has looked whether they overlap
 
   static constexpr double pattern_unit = 64;
 
