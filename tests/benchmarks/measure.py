@@ -145,8 +145,14 @@ def show_machine(store):
     return table(["", ""], rows)
 
 
+def natural(name):
+    """Sorts numbers within names by their size."""
+    return [part.zfill(9) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
+
+
 def show_steps(store):
     columns, cases = columns_of(store, "steps")
+    cases.sort(key=natural)
     keys = ["blocks", "overlapping_pairs", "candidate_pairs"]
     heads = ["case", "blocks", "pairs that overlap", "candidates"]
     for what in ("ns per block and step", "ns per overlapping pair and step", "bytes per block"):
@@ -260,7 +266,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3, help="of the cases of Google Benchmark")
     parser.add_argument("--rounds", type=int, default=3, help="of the comparison with peers")
     parser.add_argument("--threads", default="12", help="1 on a busy machine, where two threads tell nothing")
-    parser.add_argument("--binaries", type=pathlib.Path, default=ROOT / "build/release/bin")
+    parser.add_argument("--binaries", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/release/bin")
     parser.add_argument("--tables", action="store_true", help="measure nothing, write the tables")
     arguments = parser.parse_args()
     wanted = [] if arguments.tables else arguments.only.split(",")
