@@ -49,15 +49,6 @@ double sites_in(const Sites& sites, const Box& box) {
 
 }  // namespace
 
-Box box_around(const Ring& ring) {
-  Box box{ring[0], ring[0]};
-  for (const Vec2 vertex : ring) {
-    box.low = {std::min(box.low.x, vertex.x), std::min(box.low.y, vertex.y)};
-    box.high = {std::max(box.high.x, vertex.x), std::max(box.high.y, vertex.y)};
-  }
-  return box;
-}
-
 void add_joints(const JointSet& set, const Box& box, std::vector<Cut>& cuts) {
   const Vec2 along = direction_of(set.dip), across{-along.y, along.x};
   const Span length = span_of(box, along), breadth = span_of(box, across);

@@ -1,21 +1,12 @@
 #pragma once
 
 #include "blocks/geos.hpp"
+#include "geometry/box.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace talus {
-
-/// Corners of an upright box, m.
-struct Box {
-  Vec2 low, high;
-  double width() const { return high.x - low.x; }
-  double height() const { return high.y - low.y; }
-  double size() const { return width() > height() ? width() : height(); }
-};
-
-Box box_around(const Ring& ring);
 
 /// A polyline that cuts, with the surface that the faces along it belong to (0 for none).
 struct Cut {

@@ -1,24 +1,13 @@
 #include "scene/polygons.hpp"
 
+#include "geometry/box.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace talus {
 namespace {
-
-struct Bounds {
-  Vec2 low, high;
-};
-
-Bounds box_of(const Ring& ring) {
-  Bounds box{ring[0], ring[0]};
-  for (const Vec2 vertex : ring) {
-    box.low = {std::min(box.low.x, vertex.x), std::min(box.low.y, vertex.y)};
-    box.high = {std::max(box.high.x, vertex.x), std::max(box.high.y, vertex.y)};
-  }
-  return box;
-}
 
 /// Twice the area over the perimeter: between a half and the whole of the thickness of a plate.
 double width(const Loops& loops) {
@@ -38,7 +27,7 @@ struct Span {
 };
 
 /// Edges above or below the box, relative to its lower left corner so that far-away scenes lose no digits.
-std::vector<Span> spans_of(const Loops& loops, const Bounds& box) {
+std::vector<Span> spans_of(const Loops& loops, const Box& box) {
   std::vector<Span> spans;
   for (const Ring& ring : loops) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -81,7 +70,7 @@ void add_crossing(const Span& a, const Span& b, std::vector<double>& cuts) {
 /// Area of the overlap within the box, by upright slabs between vertices and crossings: within a slab the
 /// common height is linear, so its middle tells it exactly. Nothing here depends on which of two nearly equal
 /// lines is the upper one, so touching bodies come out with rounding only.
-double overlap_area(const Loops& first, const Loops& second, const Bounds& box) {
+double overlap_area(const Loops& first, const Loops& second, const Box& box) {
   const std::vector<Span> a = spans_of(first, box), b = spans_of(second, box);
   const double end = box.high.x - box.low.x;
   std::vector<double> cuts{0, end};
@@ -110,11 +99,11 @@ double overlap_area(const Loops& first, const Loops& second, const Bounds& box) 
 }  // namespace
 
 std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bodies) {
-  std::vector<Bounds> boxes;
+  std::vector<Box> boxes;
   std::vector<double> widths;
   Vec2 spread{};
   for (const Loops* loops : bodies) {
-    boxes.push_back(box_of((*loops)[0]));
+    boxes.push_back(box_around((*loops)[0]));
     widths.push_back(width(*loops));
     spread.x = std::max(spread.x, std::abs(boxes.back().low.x - boxes.front().low.x));
     spread.y = std::max(spread.y, std::abs(boxes.back().low.y - boxes.front().low.y));
@@ -129,7 +118,7 @@ std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bod
   for (const std::size_t i : order) {
     std::erase_if(active, [&](std::size_t j) { return boxes[j].high.*along <= boxes[i].low.*along; });
     for (const std::size_t j : active) {
-      const Bounds common{
+      const Box common{
           {std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y)},
           {std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y)}};
       const double tolerance = 1e-6 * std::min(widths[i], widths[j]);

@@ -1,5 +1,7 @@
 #include "simulation/numbering.hpp"
 
+#include "geometry/box.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,39 +16,24 @@ constexpr std::size_t many = 2000;
 /// mean.
 constexpr double close = 10;
 
-struct Extent {
-  Vec2 low, high;
-
-  Vec2 middle() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2}; }
-};
-
-Extent extent_of(const std::vector<Vec2>& points) {
-  Extent all{points[0], points[0]};
-  for (const Vec2 p : points) {
-    all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
-    all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
-  }
-  return all;
-}
-
 }  // namespace
 
 Numbering numbering_of(const Scene& scene) {
   const std::size_t count = scene.bodies.size();
   if (count < many) return {};
-  std::vector<Extent> extents;
+  std::vector<Box> boxes;
   std::vector<Vec2> middles;
   for (const SceneBody& body : scene.bodies) {
-    extents.push_back(extent_of(body.outer.vertices));
-    middles.push_back(extents.back().middle());
+    boxes.push_back(box_around(body.outer.vertices));
+    const Box& box = boxes.back();
+    middles.push_back({(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2});
   }
-  const Extent all = extent_of(middles);
-  const bool along_x = all.high.x - all.low.x >= all.high.y - all.low.y;
+  const Box all = box_around(middles);
+  const bool along_x = all.width() >= all.height();
   const auto place = [&](std::size_t body) { return along_x ? middles[body].x : middles[body].y; };
   double sizes = 0, apart = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Extent& e = extents[i];
-    sizes += along_x ? e.high.x - e.low.x : e.high.y - e.low.y;
+    sizes += along_x ? boxes[i].width() : boxes[i].height();
     if (i > 0) apart += std::abs(place(i) - place(i - 1));
   }
   if (!(apart > close * sizes)) return {};
