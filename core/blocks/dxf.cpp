@@ -82,6 +82,14 @@ class Parser {
     return taken;
   }
 
+  /// A sum of flags.
+  int flags() const {
+    const double written = number();
+    if (written != std::floor(written) || std::abs(written) > 0xFFFF)
+      fail(fmt::format("{} stands where flags, a whole number, should", shown(value_)));
+    return static_cast<int>(written);
+  }
+
   /// Ends on ENDSEC.
   void read_entities() {
     advance();
@@ -148,7 +156,7 @@ class Parser {
     std::vector<Vec2> points;
     bool closed = false;
     read_groups([&](int code) {
-      if (code == 70) closed = (static_cast<int>(number()) & closed_flag) != 0;
+      if (code == 70) closed = (flags() & closed_flag) != 0;
       if (code == 10) points.push_back({number(), 0});
       if (code == 20 && points.empty()) fail("a y (code 20) stands before the first x (code 10)");
       if (code == 20) points.back().y = number();
@@ -161,9 +169,9 @@ class Parser {
   void read_polyline() {
     begin_entity();
     std::vector<Vec2> points;
-    int flags = 0;
+    int kind = 0;
     read_groups([&](int code) {
-      if (code == 70) flags = static_cast<int>(number());
+      if (code == 70) kind = flags();
       check_plane();
     });
     const std::string_view layer = layer_;
@@ -181,8 +189,8 @@ class Parser {
     read_groups([](int) {});
     layer_ = layer;
     paper_ = paper;
-    const bool flat = (flags & outside_model_space) == 0;
-    flat ? keep(std::move(points), (flags & closed_flag) != 0, "POLYLINE") : pass_over("POLYLINE");
+    const bool flat = (kind & outside_model_space) == 0;
+    flat ? keep(std::move(points), (kind & closed_flag) != 0, "POLYLINE") : pass_over("POLYLINE");
   }
 
   void pass_over(const char* kind) { ++drawing_.passed_over[fmt::format("{} not of the plane", kind)]; }

@@ -2,9 +2,12 @@
 
 #include "blocks/random.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace talus {
 namespace {
@@ -32,6 +35,8 @@ Vec2 direction_of(double angle) {
 double margin_of(const Box& box) {
   return 0.01 * box.size();
 }
+
+constexpr double least_filled = 1e-3;
 
 double courses(const Bricks& bricks, const Box& box) {
   return std::ceil(box.height() / (bricks.height + bricks.gap));
@@ -112,6 +117,14 @@ void add_voronoi(const Sites& sites, const Ring& domain, const Geos& geos, std::
   Random random(sites.seed);
   std::vector<Vec2> points;
   if (sites.spacing == 0) {
+    // Points are tried all over the box until enough lie within.
+    const double filled = std::abs(signed_area(domain)) / (box.width() * box.height());
+    if (filled < least_filled) {
+      throw std::runtime_error(fmt::format(
+          "it fills {:.2g} of the box around it, too little to find points within at random (at least {}): "
+          "give a \"spacing\" in place of the \"count\", or divide it",
+          filled, least_filled));
+    }
     const auto count = static_cast<std::size_t>(sites.count);
     while (points.size() < count) {
       const double x = random.share(), y = random.share();

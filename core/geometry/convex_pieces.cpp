@@ -2,11 +2,12 @@
 
 #include <talus/contact_model.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 namespace talus {
 namespace {
@@ -73,7 +74,7 @@ Place cut_target(RingSet& region, Place from, Vec2 along) {
       hit = Place{r, i};
     }
   }
-  if (!hit) throw std::runtime_error("a cut from a reflex vertex found no boundary ahead");
+  if (!hit) throw Indivisible(start);
   ConvexPiece& ring = region[hit->ring];
   if (share < 1e-9) return *hit;
   if (share > 1 - 1e-9) return {hit->ring, next(ring, hit->corner)};
@@ -101,26 +102,76 @@ bool inside(const ConvexPiece& ring, Vec2 p) {
   return odd;
 }
 
-/// A cut to another ring joins the two rings; a cut to the own ring divides the region.
-void divide(RingSet region, std::uint32_t& cuts, std::vector<ConvexPiece>& pieces) {
-  while (const std::optional<Place> corner = reflex_corner(region)) {
-    Place from = *corner;
-    const Vec2 along = inner_bisector(region[from.ring], from.corner);
-    const std::size_t before = region[from.ring].size();
-    const Place to = cut_target(region, from, along);
-    if (to.ring == from.ring && region[from.ring].size() > before && to.corner <= from.corner) ++from.corner;
-    const std::uint32_t cut = cuts++;
-    if (to.ring != from.ring) {
-      ConvexPiece joined = part(region[from.ring], next(region[from.ring], from.corner), from.corner, cut);
-      const ConvexPiece other = part(region[to.ring], next(region[to.ring], to.corner), to.corner, cut);
-      joined.insert(joined.begin(), region[from.ring][from.corner]);
-      joined.push_back(region[to.ring][to.corner]);
-      joined.insert(joined.end(), other.begin(), other.end());
-      const auto [low, high] = std::minmax(from.ring, to.ring);
-      region[low] = joined;
-      region.erase(region.begin() + static_cast<std::ptrdiff_t>(high));
-      continue;
+double area_of(const ConvexPiece& ring) {
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    twice += cross(minus(ring[i].at, ring[0].at), minus(ring[i + 1].at, ring[0].at));
+  return twice / 2;
+}
+
+double area_of(std::span<const ConvexPiece> rings) {
+  double sum = 0;
+  for (const ConvexPiece& ring : rings) sum += area_of(ring);
+  return sum;
+}
+
+/// Cuts a region until no corner is reflex.
+class Divider {
+ public:
+  std::vector<ConvexPiece> divide(RingSet whole) {
+    // No cut makes a corner reflex, and each leaves one less; where rounding sees it otherwise there is no
+    // end.
+    for (const ConvexPiece& ring : whole) most_cuts_ += ring.size();
+    // Not by recursion: a saw of many teeth would exhaust the stack.
+    std::vector<RingSet> waiting{std::move(whole)};
+    std::vector<ConvexPiece> pieces;
+    while (!waiting.empty()) {
+      RingSet region = std::move(waiting.back());
+      waiting.pop_back();
+      std::optional<RingSet> other_half = cut_first_half_off(region);
+      if (!other_half) {
+        pieces.push_back(std::move(region[0]));
+        continue;
+      }
+      waiting.push_back(std::move(*other_half));
+      waiting.push_back(std::move(region));
     }
+    return pieces;
+  }
+
+ private:
+  /// Makes cuts until one divides the region; keeps one half of it and returns the other. Nothing where all
+  /// corners are convex.
+  std::optional<RingSet> cut_first_half_off(RingSet& region) {
+    while (const std::optional<Place> corner = reflex_corner(region)) {
+      if (cuts_ == most_cuts_) throw Indivisible(region[corner->ring][corner->corner].at);
+      Place from = *corner;
+      const Vec2 along = inner_bisector(region[from.ring], from.corner);
+      const std::size_t before = region[from.ring].size();
+      const Place to = cut_target(region, from, along);
+      if (to.ring == from.ring && region[from.ring].size() > before && to.corner <= from.corner)
+        ++from.corner;
+      if (to.ring == from.ring) return halve(region, from, to);
+      join(region, from, to);
+    }
+    return std::nullopt;
+  }
+
+  /// A cut to another ring makes one of the two.
+  void join(RingSet& region, Place from, Place to) {
+    const auto cut = static_cast<std::uint32_t>(cuts_++);
+    ConvexPiece joined = part(region[from.ring], next(region[from.ring], from.corner), from.corner, cut);
+    const ConvexPiece other = part(region[to.ring], next(region[to.ring], to.corner), to.corner, cut);
+    joined.insert(joined.begin(), region[from.ring][from.corner]);
+    joined.push_back(region[to.ring][to.corner]);
+    joined.insert(joined.end(), other.begin(), other.end());
+    const auto [low, high] = std::minmax(from.ring, to.ring);
+    region[low] = joined;
+    region.erase(region.begin() + static_cast<std::ptrdiff_t>(high));
+  }
+
+  RingSet halve(RingSet& region, Place from, Place to) {
+    const auto cut = static_cast<std::uint32_t>(cuts_++);
     const ConvexPiece ring = region[from.ring];
     RingSet halves[2] = {{part(ring, from.corner, to.corner, cut)},
                          {part(ring, to.corner, from.corner, cut)}};
@@ -128,12 +179,12 @@ void divide(RingSet region, std::uint32_t& cuts, std::vector<ConvexPiece>& piece
       if (r == from.ring) continue;
       halves[inside(halves[0][0], region[r][0].at) ? 0 : 1].push_back(region[r]);
     }
-    divide(halves[0], cuts, pieces);
-    divide(halves[1], cuts, pieces);
-    return;
+    region = std::move(halves[0]);
+    return std::move(halves[1]);
   }
-  pieces.push_back(region[0]);
-}
+
+  std::size_t cuts_ = 0, most_cuts_ = 0;
+};
 
 ConvexPiece ring_of(const Loop& loop) {
   ConvexPiece ring;
@@ -144,12 +195,19 @@ ConvexPiece ring_of(const Loop& loop) {
 
 }  // namespace
 
+Indivisible::Indivisible(Vec2 at)
+    : std::runtime_error(
+          fmt::format("it cannot be cut into convex pieces near ({}, {}): corners are too sharp "
+                      "or too near to other sides for the precision of numbers",
+                      at.x, at.y)) {}
+
 std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes) {
   RingSet region{ring_of(outer)};
   for (const Loop& hole : holes) region.push_back(ring_of(hole));
-  std::vector<ConvexPiece> pieces;
-  std::uint32_t cuts = 0;
-  divide(std::move(region), cuts, pieces);
+  const double area = area_of(region);
+  std::vector<ConvexPiece> pieces = Divider().divide(std::move(region));
+  // Where features are as small as rounding, cuts may leave a part out or take it twice.
+  if (!(std::abs(area_of(pieces) - area) <= 1e-9 * area)) throw Indivisible(outer.vertices[0]);
   return pieces;
 }
 

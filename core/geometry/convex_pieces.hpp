@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace talus {
@@ -17,9 +18,15 @@ struct PieceCorner {
 
 using ConvexPiece = std::vector<PieceCorner>;  ///< counter-clockwise
 
+/// A body that rounding keeps from being cut, in words that say near which point.
+class Indivisible : public std::runtime_error {
+ public:
+  explicit Indivisible(Vec2 at);
+};
+
 /// Cuts a body into convex pieces along the inner bisectors of its reflex vertices, so that the distance to
 /// the nearest side is continuous across each cut near its vertex. A convex body is its own only piece.
-/// Throws std::runtime_error when a cut finds no boundary, which a valid polygon does not show.
+/// Throws Indivisible where features of the body are as small as rounding.
 std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes);
 
 }  // namespace talus

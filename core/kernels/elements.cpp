@@ -1,101 +1,131 @@
 #include "kernels/elements.hpp"
 
+#include <talus/simd/pack.hpp>
+
 namespace talus::kernels::TALUS_KERNEL_LEVEL {
 namespace {
 
-/// Eight lanes, in as many vectors as it takes; the compiler divides them.
-using Lanes [[gnu::vector_size(8 * lanes)]] = double;
-using LanesAnywhere [[gnu::vector_size(8 * lanes), gnu::aligned(8), gnu::may_alias]] = double;
+using simd::Pack;
 
-double sum_of(const Lanes& lane) {
-  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
-}
+/// Packs of one level that hold the eight lanes of a sum.
+constexpr std::uint32_t packs = lanes / simd::lanes, width = simd::lanes;
 
-/// Puts `count` values into the first lanes. Vectors pass by reference: by value they would not be the same
-/// to every instruction set.
-void fill(const double* value, std::uint32_t count, Lanes& first) {
-  for (std::uint32_t k = 0; k < count; ++k) first[k] = value[k];
-}
+/// How a row is read and written: by full packs, or the first lanes of one.
+struct Whole {
+  Pack load(const double* from) const { return simd::load(from); }
+  void store(Pack p, double* to) const { simd::store(p, to); }
+};
+struct First {
+  std::uint32_t count;
 
-const LanesAnywhere& at(const double* value) {
-  return *reinterpret_cast<const LanesAnywhere*>(value);
-}
-LanesAnywhere& at(double* value) {
-  return *reinterpret_cast<LanesAnywhere*>(value);
+  Pack load(const double* from) const { return simd::load_first(from, count); }
+  void store(Pack p, double* to) const { simd::store_first(p, to, count); }
+};
+
+struct Sum {
+  Pack part[packs];
+
+  Sum() {
+    for (Pack& p : part) p = 0.0;
+  }
+  double total() const {
+    double lane[lanes];
+    store(lane);
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+  }
+  void store(double* lane) const {
+    for (std::uint32_t k = 0; k < packs; ++k) simd::store(part[k], lane + k * width);
+  }
+};
+
+/// Calls add(k, i, row) for the packs of `count` values, where value i goes to pack k of a sum.
+template <class Add>
+void in_lanes(std::uint32_t count, const Add& add) {
+  std::uint32_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    for (std::uint32_t k = 0; k < packs; ++k) add(k, i + k * width, Whole{});
+  }
+  for (std::uint32_t k = 0; i < count; i += width, ++k) {
+    const std::uint32_t rest = count - i < width ? count - i : width;
+    add(k, i, First{rest});
+  }
 }
 
 void move(std::uint32_t count, double dt, double* __restrict d, const double* __restrict v,
           double* __restrict x, double* __restrict y) {
-  for (std::uint32_t i = 0; i < 2 * count; ++i) d[i] += dt * v[i];
-  for (std::uint32_t i = 0; i < count; ++i) {
+  std::uint32_t i = 0;
+  for (; i + width <= count; i += width) {
+    Pack both[2], apart[2];
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const std::uint32_t at = 2 * i + k * width;
+      both[k] = simd::load(d + at) + dt * simd::load(v + at);
+      simd::store(both[k], d + at);
+    }
+    simd::separate(both, apart[0], apart[1]);
+    simd::store(apart[0], x + i);
+    simd::store(apart[1], y + i);
+  }
+  for (; i < count; ++i) {
+    d[2 * i] += dt * v[2 * i];
+    d[2 * i + 1] += dt * v[2 * i + 1];
     x[i] = d[2 * i];
     y[i] = d[2 * i + 1];
   }
 }
 
-void lattice_gradient(std::uint32_t cells, const double gradient[4], const double* __restrict bottom_x,
-                      const double* __restrict bottom_y, const double* __restrict top_x,
-                      const double* __restrict top_y, double* const f[4]) {
-  const double g1x = gradient[0], g1y = gradient[1], g2x = gradient[2], g2y = gradient[3];
-  double* __restrict fxx = f[0], * __restrict fxy = f[1], * __restrict fyx = f[2], * __restrict fyy = f[3];
-#pragma GCC ivdep
-  for (std::uint32_t c = 0; c < cells; ++c) {
-    const double along_x = bottom_x[c + 1] - bottom_x[c], along_y = bottom_y[c + 1] - bottom_y[c];
-    const double up_x = top_x[c] - bottom_x[c], up_y = top_y[c] - bottom_y[c];
-    fxx[c] = 1 + (along_x * g1x + up_x * g2x);
-    fxy[c] = along_x * g1y + up_x * g2y;
-    fyx[c] = along_y * g1x + up_y * g2x;
-    fyy[c] = 1 + (along_y * g1y + up_y * g2y);
-  }
-#pragma GCC ivdep
-  for (std::uint32_t c = 0; c < cells; ++c) {
-    const double along_x = top_x[c + 1] - top_x[c], along_y = top_y[c + 1] - top_y[c];
-    const double up_x = top_x[c + 1] - bottom_x[c + 1], up_y = top_y[c + 1] - bottom_y[c + 1];
-    fxx[cells + c] = 1 + (along_x * g1x + up_x * g2x);
-    fxy[cells + c] = along_x * g1y + up_x * g2y;
-    fyx[cells + c] = along_y * g1x + up_y * g2x;
-    fyy[cells + c] = 1 + (along_y * g1y + up_y * g2y);
-  }
+void lattice_gradient(std::uint32_t cells, const double gradient[4], const double* bottom_x,
+                      const double* bottom_y, const double* top_x, const double* top_y, double* const f[4]) {
+  const Pack g1x = gradient[0], g1y = gradient[1], g2x = gradient[2], g2y = gradient[3];
+  double *fxx = f[0], *fxy = f[1], *fyx = f[2], *fyy = f[3];
+  const auto some = [&](std::uint32_t c, auto row) __attribute__((always_inline)) {
+    const auto triangles = [&](std::uint32_t to, Pack along_x, Pack along_y, Pack up_x, Pack up_y) {
+      row.store(1.0 + (along_x * g1x + up_x * g2x), fxx + to);
+      row.store(along_x * g1y + up_x * g2y, fxy + to);
+      row.store(along_y * g1x + up_y * g2x, fyx + to);
+      row.store(1.0 + (along_y * g1y + up_y * g2y), fyy + to);
+    };
+    const Pack left_x = row.load(bottom_x + c), right_x = row.load(bottom_x + c + 1);
+    const Pack left_y = row.load(bottom_y + c), right_y = row.load(bottom_y + c + 1);
+    const Pack over_x = row.load(top_x + c), over_right_x = row.load(top_x + c + 1);
+    const Pack over_y = row.load(top_y + c), over_right_y = row.load(top_y + c + 1);
+    triangles(c, right_x - left_x, right_y - left_y, over_x - left_x, over_y - left_y);
+    triangles(cells + c, over_right_x - over_x, over_right_y - over_y, over_right_x - right_x,
+              over_right_y - right_y);
+  };
+  std::uint32_t c = 0;
+  for (; c + width <= cells; c += width) some(c, Whole{});
+  if (c < cells) some(c, First{cells - c});
 }
 
 void lattice_force(std::uint32_t cells, const double gradient[4], double area, const double* const p[4],
-                   double* __restrict bottom_x, double* __restrict bottom_y, double* __restrict top_x,
-                   double* __restrict top_y, double* __restrict spare) {
-  const double g1x = area * gradient[0], g1y = area * gradient[1];
-  const double g2x = area * gradient[2], g2y = area * gradient[3];
-  const double* __restrict pxx = p[0], * __restrict pxy = p[1], * __restrict pyx = p[2], * __restrict pyy = p[3];
-  // What a cell gives to its left and to its right corner of each row.
-  const std::uint32_t length = cells + 1;
-  double* __restrict left_bottom_x = spare, * __restrict left_bottom_y = spare + length;
-  double* __restrict left_top_x = spare + 2 * length, * __restrict left_top_y = spare + 3 * length;
-  double* __restrict right_bottom_x = spare + 4 * length, * __restrict right_bottom_y = spare + 5 * length;
-  double* __restrict right_top_x = spare + 6 * length, * __restrict right_top_y = spare + 7 * length;
-#pragma GCC ivdep
-  for (std::uint32_t c = 0; c < cells; ++c) {
-    const double lower1_x = pxx[c] * g1x + pxy[c] * g1y, lower1_y = pyx[c] * g1x + pyy[c] * g1y;
-    const double lower2_x = pxx[c] * g2x + pxy[c] * g2y, lower2_y = pyx[c] * g2x + pyy[c] * g2y;
+                   double* bottom_x, double* bottom_y, double* top_x, double* top_y) {
+  const Pack g1x = area * gradient[0], g1y = area * gradient[1];
+  const Pack g2x = area * gradient[2], g2y = area * gradient[3];
+  const double *pxx = p[0], *pxy = p[1], *pyx = p[2], *pyy = p[3];
+  // What the cells before gave to their right corners, of which the last lies here.
+  Pack before_bottom_x = 0.0, before_bottom_y = 0.0, before_top_x = 0.0, before_top_y = 0.0;
+  const auto some = [&](std::uint32_t c, auto cell, auto node) __attribute__((always_inline)) {
+    const Pack lxx = cell.load(pxx + c), lxy = cell.load(pxy + c), lyx = cell.load(pyx + c),
+               lyy = cell.load(pyy + c);
     const std::uint32_t u = cells + c;
-    const double upper1_x = pxx[u] * g1x + pxy[u] * g1y, upper1_y = pyx[u] * g1x + pyy[u] * g1y;
-    const double upper2_x = pxx[u] * g2x + pxy[u] * g2y, upper2_y = pyx[u] * g2x + pyy[u] * g2y;
-    left_bottom_x[c] = lower1_x + lower2_x;
-    left_bottom_y[c] = lower1_y + lower2_y;
-    right_bottom_x[c + 1] = upper2_x - lower1_x;
-    right_bottom_y[c + 1] = upper2_y - lower1_y;
-    left_top_x[c] = upper1_x - lower2_x;
-    left_top_y[c] = upper1_y - lower2_y;
-    right_top_x[c + 1] = upper1_x + upper2_x;
-    right_top_y[c + 1] = upper1_y + upper2_y;
-  }
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    spare[k * length + cells] = 0;
-    spare[(4 + k) * length] = 0;
-  }
-  for (std::uint32_t c = 0; c < length; ++c) {
-    bottom_x[c] += left_bottom_x[c] + right_bottom_x[c];
-    bottom_y[c] += left_bottom_y[c] + right_bottom_y[c];
-    top_x[c] += left_top_x[c] - right_top_x[c];
-    top_y[c] += left_top_y[c] - right_top_y[c];
-  }
+    const Pack uxx = cell.load(pxx + u), uxy = cell.load(pxy + u), uyx = cell.load(pyx + u),
+               uyy = cell.load(pyy + u);
+    const auto add = [&](double* to, Pack left, Pack right, Pack& before) {
+      node.store(node.load(to) + (left + simd::shifted(before, right)), to);
+      before = right;
+    };
+    const Pack lower1_x = lxx * g1x + lxy * g1y, lower2_x = lxx * g2x + lxy * g2y;
+    const Pack upper1_x = uxx * g1x + uxy * g1y, upper2_x = uxx * g2x + uxy * g2y;
+    add(bottom_x + c, lower1_x + lower2_x, upper2_x - lower1_x, before_bottom_x);
+    add(top_x + c, upper1_x - lower2_x, -(upper1_x + upper2_x), before_top_x);
+    const Pack lower1_y = lyx * g1x + lyy * g1y, lower2_y = lyx * g2x + lyy * g2y;
+    const Pack upper1_y = uyx * g1x + uyy * g1y, upper2_y = uyx * g2x + uyy * g2y;
+    add(bottom_y + c, lower1_y + lower2_y, upper2_y - lower1_y, before_bottom_y);
+    add(top_y + c, upper1_y - lower2_y, -(upper1_y + upper2_y), before_top_y);
+  };
+  std::uint32_t c = 0;
+  for (; c + width <= cells; c += width) some(c, Whole{}, Whole{});
+  some(c, First{cells - c}, First{cells - c + 1});
 }
 
 void triangle_gradient(std::uint32_t count, const Triangles& t, const double* __restrict x,
@@ -139,103 +169,112 @@ void triangle_force(std::uint32_t count, const Triangles& t, const double* const
 }
 
 double sum(std::uint32_t count, const double* value) {
-  Lanes total{};
-  std::uint32_t i = 0;
-  for (; i + lanes <= count; i += lanes) total += at(value + i);
-  Lanes rest{};
-  fill(value + i, count - i, rest);
-  total += rest;
-  return sum_of(total);
+  Sum total;
+  in_lanes(count, [&](std::uint32_t k, std::uint32_t i, auto row) {
+    total.part[k] = total.part[k] + row.load(value + i);
+  });
+  return total.total();
 }
 
 double weighted_sum(std::uint32_t count, const double* weight, const double* value) {
-  Lanes total{};
-  std::uint32_t i = 0;
-  for (; i + lanes <= count; i += lanes) total += at(weight + i) * at(value + i);
-  Lanes rest{}, rest_weight{};
-  fill(value + i, count - i, rest);
-  fill(weight + i, count - i, rest_weight);
-  total += rest_weight * rest;
-  return sum_of(total);
+  Sum total;
+  in_lanes(count, [&](std::uint32_t k, std::uint32_t i, auto row) {
+    total.part[k] = total.part[k] + row.load(weight + i) * row.load(value + i);
+  });
+  return total.total();
 }
 
-namespace {
-
+/// Products of velocities before and after; x and y are lanes beside each other.
 struct Products {
-  Lanes before{}, across{}, after{}, momentum{};
+  Sum before, across, after, momentum;
 
-  void add(bool all, const Lanes& mass, const Lanes& v, const Lanes& next) {
-    across += mass * (v * next);
+  void add(bool all, std::uint32_t k, Pack mass, Pack v, Pack next) {
+    across.part[k] = across.part[k] + mass * (v * next);
     if (!all) return;
-    before += mass * (v * v);
-    after += mass * (next * next);
-    momentum += mass * v;
+    before.part[k] = before.part[k] + mass * (v * v);
+    after.part[k] = after.part[k] + mass * (next * next);
+    momentum.part[k] = momentum.part[k] + mass * v;
   }
 };
 
-/// v := keep v + gain a of `count` numbers, with the products of old and new.
-template <bool all, bool weighted>
-void update(std::uint32_t count, double keep, double gain, const double* acceleration, const double* mass,
-            double* v, Products& products) {
-  Lanes weight = Lanes{} + 1;
-  std::uint32_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    const Lanes old = at(v + i), next = keep * old + gain * at(acceleration + i);
-    if (weighted) weight = at(mass + i);
-    products.add(all, weight, old, next);
-    at(v + i) = next;
+/// What accelerate() is given.
+struct Patches {
+  const double *mass, *inverse_mass, *fx, *fy;
+  double *v, *middle;
+};
+
+/// As many patches as there are lanes, from patch i on; their velocities go to packs k and k + 1 of the sums.
+template <bool all, bool same_mass>
+[[gnu::always_inline]] inline void accelerate_some(const VelocityUpdate& how, const Patches& patches,
+                                                   double share, std::uint32_t i, std::uint32_t k,
+                                                   Products& products) {
+  const Pack inverse = same_mass ? Pack(patches.inverse_mass[0]) : simd::load(patches.inverse_mass + i);
+  Pack acceleration[2], mass[2] = {1.0, 1.0};
+  simd::interleave(simd::load(patches.fx + i) * inverse + how.gravity[0],
+                   simd::load(patches.fy + i) * inverse + how.gravity[1], acceleration);
+  if (!same_mass) simd::interleave(simd::load(patches.mass + i), simd::load(patches.mass + i), mass);
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    double* at = patches.v + 2 * i + half * width;
+    const Pack old = simd::load(at), next = how.keep * old + how.gain * acceleration[half];
+    simd::store(next, at);
+    if (patches.middle != nullptr)
+      simd::store(old + share * (next - old), patches.middle + 2 * i + half * width);
+    products.add(all, (k + half) % packs, mass[half], old, next);
   }
-  const std::uint32_t rest = count - i;
-  Lanes old{}, change{};
-  fill(v + i, rest, old);
-  fill(acceleration + i, rest, change);
-  if (weighted) fill(mass + i, rest, weight);
-  const Lanes next = keep * old + gain * change;
-  products.add(all, weight, old, next);
-  for (std::uint32_t k = 0; k < rest; ++k) v[i + k] = next[k];
 }
 
-}  // namespace
+template <bool all, bool same_mass>
+void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patches& patches, double share,
+                    Products& products) {
+  std::uint32_t i = 0;
+  // Patches i and i + 4 share their lanes of the sums.
+  constexpr std::uint32_t most = lanes / 2 > width ? lanes / 2 : width;
+  for (; i + most <= count; i += most) {
+    for (std::uint32_t part = 0; part < most / width; ++part)
+      accelerate_some<all, same_mass>(how, patches, share, i + part * width, 2 * part, products);
+  }
+  const std::uint32_t rest = count - i;
+  if (rest == 0) return;
+  // The others weigh nothing, so what gravity does to them does not count.
+  double mass[most] = {}, inverse_mass[most] = {}, fx[most] = {}, fy[most] = {}, v[2 * most] = {},
+         middle[2 * most];
+  for (std::uint32_t j = 0; j < rest; ++j) {
+    mass[j] = same_mass ? 1 : patches.mass[i + j];
+    inverse_mass[j] = patches.inverse_mass[same_mass ? 0 : i + j];
+    fx[j] = patches.fx[i + j];
+    fy[j] = patches.fy[i + j];
+    v[2 * j] = patches.v[2 * (i + j)];
+    v[2 * j + 1] = patches.v[2 * (i + j) + 1];
+  }
+  const Patches few{mass, inverse_mass, fx, fy, v, patches.middle != nullptr ? middle : nullptr};
+  for (std::uint32_t part = 0; part < most / width; ++part)
+    accelerate_some<all, false>(how, few, share, part * width, 2 * part, products);
+  for (std::uint32_t j = 0; j < 2 * rest; ++j) {
+    patches.v[2 * i + j] = v[j];
+    if (patches.middle != nullptr) patches.middle[2 * i + j] = middle[j];
+  }
+}
 
-void accelerate(std::uint32_t count, const VelocityUpdate& how, bool same_mass, const double* __restrict mass,
-                const double* __restrict inverse_mass, const double* __restrict fx,
-                const double* __restrict fy, double* __restrict v, double* __restrict middle, double share,
-                double* __restrict spare, VelocitySums& sums) {
-  const double gravity_x = how.gravity[0], gravity_y = how.gravity[1];
-  double* __restrict acceleration = spare, * __restrict weight = spare + 2 * count;
-  // x and y beside each other.
-  if (same_mass) {
-    const double inverse = inverse_mass[0];
-    for (std::uint32_t i = 0; i < count; ++i) {
-      acceleration[2 * i] = fx[i] * inverse + gravity_x;
-      acceleration[2 * i + 1] = fy[i] * inverse + gravity_y;
-    }
-  } else {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      acceleration[2 * i] = fx[i] * inverse_mass[i] + gravity_x;
-      acceleration[2 * i + 1] = fy[i] * inverse_mass[i] + gravity_y;
-      weight[2 * i] = weight[2 * i + 1] = mass[i];
-    }
-  }
-  if (middle != nullptr) {
-    for (std::uint32_t i = 0; i < 2 * count; ++i)
-      middle[i] = v[i] + share * (how.keep * v[i] + how.gain * acceleration[i] - v[i]);
-  }
+void accelerate(std::uint32_t count, const VelocityUpdate& how, bool same_mass, const double* mass,
+                const double* inverse_mass, const double* fx, const double* fy, double* v, double* middle,
+                double share, VelocitySums& sums) {
+  const Patches patches{mass, inverse_mass, fx, fy, v, middle};
   Products products;
   if (same_mass && !how.all_sums) {
-    update<false, false>(2 * count, how.keep, how.gain, acceleration, weight, v, products);
+    accelerate_all<false, true>(count, how, patches, share, products);
   } else if (same_mass) {
-    update<true, false>(2 * count, how.keep, how.gain, acceleration, weight, v, products);
+    accelerate_all<true, true>(count, how, patches, share, products);
   } else if (!how.all_sums) {
-    update<false, true>(2 * count, how.keep, how.gain, acceleration, weight, v, products);
+    accelerate_all<false, false>(count, how, patches, share, products);
   } else {
-    update<true, true>(2 * count, how.keep, how.gain, acceleration, weight, v, products);
+    accelerate_all<true, false>(count, how, patches, share, products);
   }
   const double factor = same_mass ? mass[0] : 1;
-  sums.across += factor * sum_of(products.across);
-  sums.before += factor * sum_of(products.before);
-  sums.after += factor * sum_of(products.after);
-  const Lanes& m = products.momentum;
+  sums.across += factor * products.across.total();
+  sums.before += factor * products.before.total();
+  sums.after += factor * products.after.total();
+  double m[lanes];
+  products.momentum.store(m);
   sums.momentum[0] += factor * ((m[0] + m[2]) + (m[4] + m[6]));
   sums.momentum[1] += factor * ((m[1] + m[3]) + (m[5] + m[7]));
 }

@@ -45,9 +45,9 @@ struct ElementKernels {
                            const double* bottom_y, const double* top_x, const double* top_y,
                            double* const f[4]);
 
-  /// Takes A P ∇w off the forces on both rows (Eq. 18). `spare`: 8 (cells + 1) doubles.
+  /// Takes A P ∇w off the forces on both rows (Eq. 18).
   void (*lattice_force)(std::uint32_t cells, const double gradient[4], double area, const double* const p[4],
-                        double* bottom_x, double* bottom_y, double* top_x, double* top_y, double* spare);
+                        double* bottom_x, double* bottom_y, double* top_x, double* top_y);
 
   void (*triangle_gradient)(std::uint32_t count, const Triangles& triangles, const double* x, const double* y,
                             double* const f[4]);
@@ -61,10 +61,10 @@ struct ElementKernels {
   double (*weighted_sum)(std::uint32_t count, const double* weight, const double* value);
 
   /// `mass`, `inverse_mass`: [patch], or of all patches where `same_mass`. `middle`, unless null, takes v₋ +
-  /// share (v₊ − v₋). `spare`: 4 count doubles. Adds to `sums`.
+  /// share (v₊ − v₋). Adds to `sums`.
   void (*accelerate)(std::uint32_t count, const VelocityUpdate& update, bool same_mass, const double* mass,
                      const double* inverse_mass, const double* fx, const double* fy, double* v,
-                     double* middle, double share, double* spare, VelocitySums& sums);
+                     double* middle, double share, VelocitySums& sums);
 };
 
 }  // namespace talus::kernels

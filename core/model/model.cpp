@@ -29,9 +29,17 @@ void set_mass(Body& body, double density) {
   body.inverse_moment = {m.yy / determinant, -m.xy / determinant, -m.xy / determinant, m.xx / determinant};
 }
 
+std::vector<ConvexPiece> pieces_of(const SceneBody& body) {
+  try {
+    return convex_pieces(body.outer, body.holes);
+  } catch (const Indivisible& problem) {
+    throw BodyRefused(fmt::format("body '{}': {}", body.name, problem.what()));
+  }
+}
+
 /// The convex pieces of a body that moves as a whole.
 void add_pieces(Model& model, const SceneBody& scene_body, const Body& body, std::uint32_t index) {
-  for (const ConvexPiece& piece : convex_pieces(scene_body.outer, scene_body.holes)) {
+  for (const ConvexPiece& piece : pieces_of(scene_body)) {
     for (const PieceCorner& corner : piece) {
       model.reference_x.push_back(corner.at.x - body.centre.x);
       model.reference_y.push_back(corner.at.y - body.centre.y);
@@ -211,6 +219,10 @@ Model build_model(const Scene& scene) {
   sort_elements(model, scene);
   for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   measure_widths(model);
+  for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
+    if (model.moves(i)) model.moving_bodies.push_back(i);
+    if (model.covered(i)) model.covered_bodies.push_back(i);
+  }
   return model;
 }
 

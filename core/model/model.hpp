@@ -98,6 +98,9 @@ struct Body {
 /// Eq. 17 as masses.
 struct Model {
   std::vector<Body> bodies;
+  // Those that a step has to do with: fixed bodies take no part in its loops.
+  std::vector<std::uint32_t> moving_bodies;
+  std::vector<std::uint32_t> covered_bodies;  ///< of many elements
 
   // Corners of the pieces of all bodies (see talus::Boundaries).
   std::vector<double> reference_x, reference_y;  ///< [corner] m, X
@@ -145,7 +148,8 @@ struct Model {
   Carrier carrier(const Element& element, Vec2 reference) const;
 };
 
-/// Throws BodyRefused when a body cannot have its cover, PluginError when a builder makes what is no cover.
+/// Throws BodyRefused when a body cannot have its cover or be cut, PluginError when a builder makes what is
+/// no cover.
 Model build_model(const Scene& scene);
 
 }  // namespace talus

@@ -23,7 +23,7 @@ MotionState::MotionState(const Model& model)
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     move_corners(model, i);
-    measure_sides(model, i);
+    shape_boundary(model, i);
   }
 }
 
@@ -42,6 +42,14 @@ Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& values) {
     sum.y += carrier.weight[i] * values[carrier.patch[i]].y;
   }
   return sum;
+}
+
+void MotionState::exchange(Archive& archive) {
+  archive.of_known_size(bodies);
+  archive.of_known_size(patch_displacement);
+  archive.of_known_size(patch_velocity);
+  archive(own_behind);
+  archive.of_known_size(corners);
 }
 
 Vec2 MotionState::displacement(const MaterialPoint& point) const {
@@ -67,8 +75,9 @@ void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
 }
 
 void MotionState::clear_forces(const Model& model) {
-  for (BodyForce& force : forces) force = {};
-  for (const Body& body : model.bodies) {
+  for (const std::uint32_t index : model.moving_bodies) forces[index] = {};
+  for (const std::uint32_t index : model.covered_bodies) {
+    const Body& body = model.bodies[index];
     for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) patch_force[p] = {};
   }
 }
@@ -117,12 +126,15 @@ void MotionState::average(const Model& model, std::uint32_t index) {
 
 void MotionState::move_boundary(const Model& model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (model.bodies[i].kinematics != Kinematics::fixed) move_boundary_of(model, i);
+    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
+    move_corners(model, i);
+    shape_boundary(model, i);
   }
 }
 
-void MotionState::move_boundary_of(const Model& model, std::size_t body) {
-  move_corners(model, body);
+void MotionState::shape_boundary(const Model& model, std::size_t body) {
+  if (model.bodies[body].kinematics == Kinematics::covered)
+    shape_strips(model, static_cast<std::uint32_t>(body), *this);
   measure_sides(model, body);
 }
 
@@ -141,7 +153,6 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
       move(side.start, model.piece_start[piece]);
       move(side.end, model.piece_start[piece] + 1);
     }
-    shape_strips(model, static_cast<std::uint32_t>(index), *this);
     return;
   }
   const BodyMotion& motion = bodies[index];

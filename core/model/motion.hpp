@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "model/model.hpp"
 
 #include <talus/contact_model.hpp>
@@ -47,7 +48,10 @@ struct MotionState {
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
-  void move_boundary_of(const Model& model, std::size_t body);
+  /// The same of one body: where its corners are and how fast, of a body of many elements the ends of its
+  /// sides; then the rest of its strips, tangents and lengths, which contact reads.
+  void move_corners(const Model& model, std::size_t body);
+  void shape_boundary(const Model& model, std::size_t body);
 
   /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
   void clear_forces(const Model& model);
@@ -59,6 +63,9 @@ struct MotionState {
   /// mean rate over its area.
   void average(const Model& model, std::uint32_t body);
 
+  /// What does not follow from the rest at the next step.
+  void exchange(Archive& archive);
+
   Vec2 displacement(const MaterialPoint& point) const;  ///< m
   Vec2 velocity(const MaterialPoint& point) const;      ///< m/s, of the half step
   void add_force(const MaterialPoint& point, Vec2 load);
@@ -69,7 +76,6 @@ struct MotionState {
   };
 
  private:
-  void move_corners(const Model& model, std::size_t body);
   void measure_sides(const Model& model, std::size_t body);
 };
 

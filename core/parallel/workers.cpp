@@ -14,56 +14,81 @@ void relax() {
 
 }  // namespace
 
-Workers::Workers(int threads) {
+Workers::Workers(int threads) : parts_(std::make_unique<Part[]>(static_cast<std::size_t>(threads))) {
   for (int i = 1; i < threads; ++i) others_.emplace_back([this, i] { serve(static_cast<std::size_t>(i)); });
 }
 
 Workers::~Workers() {
   closing_.store(true, std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
+  round_.fetch_add(1);
   round_.notify_all();
   for (std::thread& other : others_) other.join();
 }
 
+/// Neighbouring chunks stay together, so that what a thread touched in one loop is near it in the next.
 void Workers::share(std::size_t chunks, Call call, const void* context) {
-  chunks_ = chunks;
   call_ = call;
   context_ = context;
-  working_.store(static_cast<std::uint32_t>(others_.size()), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
+  done_.store(0, std::memory_order_relaxed);
+  const std::size_t all = others_.size() + 1;
+  for (std::size_t i = 0; i < all; ++i) {
+    parts_[i].end = chunks * (i + 1) / all;
+    parts_[i].next.store(chunks * i / all, std::memory_order_relaxed);
+  }
+  round_.fetch_add(1);
   round_.notify_all();
   take_part(0);
-  for (int i = 0; working_.load(std::memory_order_acquire) != 0; ++i) {
-    if (i < spins) {
-      relax();
-    } else {
-      std::this_thread::yield();
+  const auto wait_until = [](const auto& reached) {
+    for (int i = 0; !reached(); ++i) {
+      if (i < spins) {
+        relax();
+      } else {
+        std::this_thread::yield();
+      }
     }
-  }
+  };
+  wait_until([&] { return done_.load(std::memory_order_acquire) == chunks; });
+  // Whoever enters from now on sees that the loop is over, or is seen here: both orders are those of one
+  // sequence of all threads.
+  round_.fetch_add(1);
+  wait_until([&] { return inside_.load() == 0; });
 }
 
 void Workers::serve(std::size_t number) {
-  for (std::uint32_t seen = 0;; ++seen) {
-    for (int i = 0; round_.load(std::memory_order_acquire) == seen; ++i) {
+  for (std::uint32_t seen = 0;;) {
+    std::uint32_t now = round_.load(std::memory_order_acquire);
+    for (int i = 0; now == seen || now % 2 == 0; ++i) {
       if (i < spins) {
         relax();
       } else if (i < spins + yields) {
         std::this_thread::yield();
       } else {
-        round_.wait(seen, std::memory_order_acquire);
+        round_.wait(now, std::memory_order_acquire);
       }
+      now = round_.load(std::memory_order_acquire);
     }
+    inside_.fetch_add(1);
+    seen = round_.load();
+    if (seen % 2 != 0) take_part(number);
+    inside_.fetch_sub(1, std::memory_order_release);
     if (closing_.load(std::memory_order_relaxed)) return;
-    take_part(number);
-    working_.fetch_sub(1, std::memory_order_release);
   }
 }
 
-/// Neighbouring chunks stay together, so that what a thread touched in one loop is near it in the next.
+/// First the thread's own part, then what is left of those of others.
 void Workers::take_part(std::size_t number) {
   const std::size_t all = others_.size() + 1;
-  const std::size_t begin = chunks_ * number / all, end = chunks_ * (number + 1) / all;
-  for (std::size_t chunk = begin; chunk < end; ++chunk) call_(context_, chunk, number);
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < all; ++i) {
+    Part& part = parts_[(number + i) % all];
+    while (part.next.load(std::memory_order_relaxed) < part.end) {
+      const std::size_t chunk = part.next.fetch_add(1, std::memory_order_relaxed);
+      if (chunk >= part.end) break;
+      call_(context_, chunk, number);
+      ++done;
+    }
+  }
+  if (done != 0) done_.fetch_add(done, std::memory_order_release);
 }
 
 }  // namespace talus

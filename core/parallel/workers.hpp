@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -11,7 +12,8 @@ namespace talus {
 
 /// Threads that share loops many times per millisecond. They wait between loops by spinning, then by giving
 /// the core away, then asleep: a loop costs tens of nanoseconds to hand out while a run steps, and nothing is
-/// burnt while it writes.
+/// burnt while it writes. Nobody waits for a thread that has not come yet, because another program has its
+/// core: those that are there do its part.
 class Workers {
  public:
   /// The caller of over() is one of the `threads`.
@@ -55,11 +57,18 @@ class Workers {
   void serve(std::size_t number);
   void take_part(std::size_t number);
 
-  std::size_t chunks_ = 0;
+  /// Chunks that one thread begins with, on a line of the cache of their own.
+  struct alignas(64) Part {
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+  };
+
   Call call_ = nullptr;
   const void* context_ = nullptr;
-  std::atomic<std::uint32_t> round_{0};    ///< counts the loops handed out
-  std::atomic<std::uint32_t> working_{0};  ///< others still at the present loop
+  std::unique_ptr<Part[]> parts_;         ///< [thread]
+  std::atomic<std::uint32_t> round_{0};   ///< odd while there is a loop to take part in
+  std::atomic<std::uint32_t> inside_{0};  ///< others that may be looking at the present loop
+  std::atomic<std::size_t> done_{0};      ///< chunks
   std::atomic<bool> closing_{false};
   std::vector<std::thread> others_;
 };

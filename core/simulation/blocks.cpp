@@ -2,25 +2,34 @@
 
 #include "simulation/velocity_update.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace talus {
 namespace {
 
-kernels::SpeedExtremes speeds_of(const MotionState& motion, const Body& body) {
+kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body) {
   kernels::SpeedExtremes all;
-  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-    const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
-    all.add({squared, squared, vx, vx, vy, vy, true});
+  for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
+    const std::uint32_t begin = model.piece_start[piece],
+                        end = model.is_strip[piece] != 0 ? begin + 2 : model.piece_start[piece + 1];
+    for (std::uint32_t c = begin; c < end; ++c) {
+      const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
+      all.add({squared, squared, vx, vx, vy, vy, true});
+    }
   }
   return all;
 }
 
 }  // namespace
 
-Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers)
-    : kernels_(kernels::block_kernels(level)), workers_(workers) {
+Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_contact)
+    : kernels_(kernels::block_kernels(level)),
+      workers_(workers),
+      moving_(model.moving_bodies),
+      left_to_others_(moving_),
+      in_contact_(in_contact) {
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     kernels::Block& block = blocks_.emplace_back();
@@ -42,15 +51,44 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers)
     some_fixed_ = some_fixed_ || body.kinematics == Kinematics::fixed;
     if (body.kinematics != Kinematics::fixed && block.corner_count == 0) others_.push_back(i);
   }
-  const std::size_t chunks = (blocks_.size() + chunk - 1) / chunk;
-  speeds_.resize(chunks);
-  sums_.resize(chunks);
+  find_stretches();
+}
+
+/// Chunks are those of all bodies, so that sums do not depend on what is fixed or sleeps.
+void Blocks::find_stretches() {
+  stretches_.clear();
+  chunks_.clear();
+  for (std::size_t begin = 0; begin < blocks_.size(); begin += chunk) {
+    const std::size_t end = std::min(begin + chunk, blocks_.size()), first = stretches_.size();
+    bool open = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool whole = blocks_[i].mass > 0;
+      if (whole && !open) stretches_.push_back({i, i});
+      if (whole) stretches_.back().end = i + 1;
+      open = whole;
+    }
+    if (stretches_.size() > first) chunks_.push_back({first, stretches_.size()});
+  }
+  speeds_.resize(chunks_.size());
+  sums_.resize(chunks_.size());
+}
+
+template <class Each>
+void Blocks::over_chunks(const Each& each) {
+  workers_.over(chunks_.size(), 1, [&](std::size_t number, std::size_t, std::size_t) {
+    const auto [begin, end] = chunks_[number];
+    each(number, std::span(stretches_).subspan(begin, end - begin));
+  });
 }
 
 void Blocks::set_supports(std::span<const Support> supports) {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Support& support = supports[i];
     blocks_[i].free = blocks_[i].mass > 0 && !support.x && !support.y && !support.rotation;
+  }
+  left_to_others_.clear();
+  for (const std::uint32_t body : moving_) {
+    if (!blocks_[body].free) left_to_others_.push_back(body);
   }
 }
 
@@ -63,27 +101,31 @@ void Blocks::set_asleep(std::span<const std::uint32_t> asleep) {
     blocks_[i].corner_begin = awake_[i].corner_begin;
   }
   if (asleep_.empty()) awake_.clear();
+  find_stretches();
 }
 
 void Blocks::move(double dt, MotionState& motion) {
-  workers_.over(blocks_.size(), chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    kernels_.move(blocks_.data(), dt, motion.bodies.data(), begin, end);
+  over_chunks([&](std::size_t, std::span<const Stretch> stretches) {
+    for (const auto [begin, end] : stretches)
+      kernels_.move(blocks_.data(), dt, motion.bodies.data(), begin, end);
   });
 }
 
 MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
-  workers_.over(blocks_.size(), chunk, [&](std::size_t number, std::size_t begin, std::size_t end) {
+  over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::SpeedExtremes here;
-    kernels_.follow(blocks_.data(), motion.bodies.data(), model.reference_x.data(), model.reference_y.data(),
-                    motion.corners.data(), begin, end, here);
+    for (const auto [begin, end] : stretches)
+      kernels_.follow(blocks_.data(), motion.bodies.data(), model.reference_x.data(),
+                      model.reference_y.data(), motion.corners.data(), begin, end, here);
     speeds_[number] = here;
   });
   kernels::SpeedExtremes all;
   for (const kernels::SpeedExtremes& part : speeds_) all.add(part);
   for (const std::uint32_t body : others_) {
     if (is_asleep(body)) continue;
-    motion.move_boundary_of(model, body);
-    all.add(speeds_of(motion, model.bodies[body]));
+    motion.move_corners(model, body);
+    if (in_contact_) motion.shape_boundary(model, body);
+    all.add(speeds_of(model, motion, model.bodies[body]));
   }
   if (!all.any) return {};
   if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, true});
@@ -104,10 +146,11 @@ void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, B
                                     conditions.dt_behind == conditions.dt_ahead,
                                     conditions.dt_behind > 0,
                                     conditions.damping > 0};
-  workers_.over(blocks_.size(), chunk, [&](std::size_t number, std::size_t begin, std::size_t end) {
+  over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::BlockSums here;
-    kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), middle, begin,
-                        end, here);
+    for (const auto [begin, end] : stretches)
+      kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), middle, begin,
+                          end, here);
     sums_[number] = here;
   });
   for (const kernels::BlockSums& part : sums_) {

@@ -10,11 +10,13 @@ namespace talus {
 /// follows it. Everything else about a body is in the Model.
 class Blocks {
  public:
-  Blocks(const Model& model, SimdLevel level, Workers& workers);
+  /// `in_contact`: whether anybody asks for the shape of boundaries, or only how fast they are.
+  Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_contact);
 
   /// From now on these supports hold; bodies with any are left to the caller.
   void set_supports(std::span<const Support> supports);
-  bool is_free(std::uint32_t body) const { return blocks_[body].free; }
+  /// The moving bodies that accelerate() does not take: of many elements, or with a support.
+  std::span<const std::uint32_t> left_to_others() const { return left_to_others_; }
   /// [body] whether it stands, not 0; empty: none. All are awake when supports change.
   void set_asleep(std::span<const std::uint32_t> asleep);
   bool is_asleep(std::uint32_t body) const { return !asleep_.empty() && asleep_[body] != 0; }
@@ -29,12 +31,30 @@ class Blocks {
  private:
   static constexpr std::size_t chunk = 64;  ///< bodies; sums are kept apart by chunks
 
+  /// Bodies side by side within a chunk that the kernels have to do with: what is fixed costs nothing.
+  struct Stretch {
+    std::size_t begin, end;
+  };
+  void find_stretches();
+  /// Calls `each` with the index of an entry of chunks_ and its stretches, in their order.
+  template <class Each>
+  void over_chunks(const Each& each);
+
   const kernels::BlockKernels& kernels_;
   Workers& workers_;
   std::vector<kernels::Block> blocks_;
   std::vector<kernels::Block> awake_;  ///< blocks_ as they are awake; empty while all are
   std::vector<std::uint32_t> asleep_;
-  std::vector<std::uint32_t> others_;  ///< moving bodies whose boundary the kernels do not know
+  std::vector<std::uint32_t> moving_;          ///< bodies that are not fixed
+  std::vector<std::uint32_t> others_;          ///< moving bodies whose boundary the kernels do not know
+  std::vector<std::uint32_t> left_to_others_;  ///< all, before supports are told
+  /// A chunk with any.
+  struct Chunk {
+    std::size_t begin, end;  ///< its entries of stretches_
+  };
+  std::vector<Stretch> stretches_;
+  std::vector<Chunk> chunks_;
+  bool in_contact_;
   bool some_fixed_ = false;
   std::vector<kernels::SpeedExtremes> speeds_;
   std::vector<kernels::BlockSums> sums_;

@@ -54,9 +54,7 @@ double Deformation::stored_in(const Model& model, std::uint32_t index) const {
 Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt, bool keep) {
   const Energy blocks = apply_to_blocks(model, dt, keep, motion);
   for (OwnPatches& own : updated_) own = {};
-  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.covered(b)) sweep(model, b, {.dt = dt, .keep = keep}, motion);
-  }
+  for (const std::uint32_t b : model.covered_bodies) sweep(model, b, {.dt = dt, .keep = keep}, motion);
   motion.own_behind = 0;
   const Energy many = energy_of_sweeps(model);
   return {blocks.stored + many.stored, blocks.dissipated + many.dissipated};
@@ -68,8 +66,7 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
                                                   MotionState& motion, VelocitiesAtStep& at_step) {
   const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
   const Update update = update_of(conditions);
-  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.covered(b)) continue;
+  for (const std::uint32_t b : model.covered_bodies) {
     const Support& support = supports[b];
     updated_[b] = {!support.x && !support.y && !support.rotation, {}};
     SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = updated_[b].done};

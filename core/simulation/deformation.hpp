@@ -49,6 +49,11 @@ class Deformation {
   /// Mean over the area of a body; zero for a body that does not deform.
   std::array<double, 3> cauchy(const Model& model, std::size_t body) const;
 
+  void exchange(Archive& archive) {
+    materials_.exchange(archive);
+    archive.of_known_size(energies_);
+  }
+
   /// What the materials remember, to go on from elsewhere: their own states, and deformation at t_n where
   /// they ask for it.
   std::vector<double> memory() const { return materials_.memory(); }

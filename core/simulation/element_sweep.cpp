@@ -36,7 +36,7 @@ ElementSweep::ElementSweep(const Model& model, SimdLevel level)
 ElementSweep::Workspace ElementSweep::workspace() const {
   Workspace w;
   for (auto* values : {&w.x, &w.y, &w.fx, &w.fy}) values->resize(most_patches_);
-  w.spare.resize(std::max<std::size_t>(4 * most_patches_, 8 * (ElementBuffer::most + 1)));
+  w.spare.resize(4 * ElementBuffer::most);
   return w;
 }
 
@@ -65,7 +65,7 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
     kernels_.accelerate(run.count, step.velocity, run.same_mass, model.patch_mass.data() + run.patch,
                         step.inverse_mass + run.patch, fx + run.local, fy + run.local,
                         flat(motion.patch_velocity, run.patch),
-                        step.keep ? &step.middle[run.patch].x : nullptr, step.share, w.spare.data(), sum.own);
+                        step.keep ? &step.middle[run.patch].x : nullptr, step.share, sum.own);
   };
 
   for (std::uint32_t s = begin; s < end; ++s) {
@@ -95,7 +95,7 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
       materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
       if (chunk.cells > 0) {
         kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), fx + bottom,
-                               fy + bottom, fx + top, fy + top, w.spare.data());
+                               fy + bottom, fx + top, fy + top);
         sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
         sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
       } else {

@@ -117,12 +117,11 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
   AccelerationWork work;
   blocks.accelerate(conditions, motion, observed ? at_step.bodies.data() : nullptr, work);
   const Update update = update_of(conditions);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+  for (const std::uint32_t i : blocks.left_to_others()) {
+    if (blocks.is_asleep(i)) continue;
     const Body& body = model.bodies[i];
-    const auto index = static_cast<std::uint32_t>(i);
-    if (body.kinematics == Kinematics::fixed || blocks.is_free(index) || blocks.is_asleep(index)) continue;
     if (body.kinematics == Kinematics::covered) {
-      accelerate_patches(model, mass, index, supports[i], conditions, update,
+      accelerate_patches(model, mass, i, supports[i], conditions, update,
                          updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
       continue;
     }
@@ -151,7 +150,8 @@ Matrix2 spin_rate(const BodyMotion& motion) {
 }
 
 void move(const Model& model, double dt, Blocks& blocks, MotionState& motion) {
-  for (const Body& body : model.bodies) {
+  for (const std::uint32_t index : model.covered_bodies) {
+    const Body& body = model.bodies[index];
     for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) {
       motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
       motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;

@@ -104,6 +104,20 @@ void Loads::apply(MotionState& motion, double time, double dt) {
   apply_absorbing(motion, dt);
 }
 
+void Loads::exchange(Archive& archive) {
+  for (Point& point : points_) archive(point.worker);
+  for (SurfacePoint& point : surface_points_) archive(point.worker);
+  for (SupportPoint& point : support_points_) {
+    archive(point.last_force);
+    archive(point.last_target);
+    archive(point.fresh);
+  }
+  for (AbsorbingPoint& point : absorbing_points_) archive(point.worker);
+  archive(work_);
+  archive(stored_);
+  archive(applied_);
+}
+
 /// Trapezoidal rule, which is exact for the leapfrog: f_n works over half of the step behind and half of the
 /// step ahead.
 void Loads::work_through(Worker& worker, Vec2 force, Vec2 moved) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
@@ -21,6 +22,8 @@ class Loads {
 
   /// Adds the loads at time t. Velocities serve the work they have done since t − dt.
   void apply(MotionState& motion, double time, double dt);
+
+  void exchange(Archive& archive);  ///< between steps
 
   double work() const { return work_; }        ///< J/m since the last reset, by loads and moving supports
   double stored() const { return stored_; }    ///< J/m in the penalty supports

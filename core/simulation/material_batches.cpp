@@ -71,6 +71,12 @@ std::array<double, 3> MaterialBatches::cauchy(std::size_t e) const {
   return {(pxx * fxx + pxy * fxy) / volume, (pyx * fyx + pyy * fyy) / volume, xy / volume};
 }
 
+void MaterialBatches::exchange(Archive& archive) {
+  for (Batch& batch : batches_) archive.of_known_size(batch.state);
+  for (std::vector<double>& component : deformation_) archive.of_known_size(component);
+  for (std::vector<double>& component : stress_) archive.of_known_size(component);
+}
+
 std::vector<double> MaterialBatches::memory() const {
   std::vector<double> all;
   for (const Batch& batch : batches_) {

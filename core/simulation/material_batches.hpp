@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "model/model.hpp"
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
@@ -40,6 +41,8 @@ class MaterialBatches {
 
   /// Cauchy stress xx, yy, xy, Pa, when the element was last kept.
   std::array<double, 3> cauchy(std::size_t element) const;
+
+  void exchange(Archive& archive);
 
   std::vector<double> memory() const;
   void set_memory(const std::vector<double>& memory);

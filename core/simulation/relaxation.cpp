@@ -82,6 +82,12 @@ double Relaxation::unbalanced(const Model& model, const MotionState& motion, Vec
   return sum;
 }
 
+void Relaxation::exchange(Archive& archive) {
+  archive(last_forces_);
+  archive(last_patch_forces_);
+  archive(last_kinetic_);
+}
+
 double Relaxation::weight(const Model& model, Vec2 gravity) {
   double sum = 0;
   for (const Body& body : model.bodies) {

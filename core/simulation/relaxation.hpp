@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
@@ -26,6 +27,8 @@ class Relaxation {
   /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m; for a body that moves as a
   /// whole, its resultant and its moments over its width.
   double unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) const;
+  void exchange(Archive& archive);
+
   static double weight(const Model& model, Vec2 gravity);
 
  private:

@@ -259,6 +259,21 @@ void Sleep::add_up() {
   }
 }
 
+void Sleep::exchange(Archive& archive, Parts parts) {
+  archive.of_known_size(quiet_since_);
+  archive.of_known_size(awake_until_);
+  archive.of_known_size(island_);
+  archive(islands_);
+  archive(last_number_);
+  archive(next_look_);
+  archive(calm_since_);
+  archive(gravity_);
+  archive(past_);
+  if (!archive.reading()) return;
+  add_up();
+  tell(parts);
+}
+
 void Sleep::tell(Parts parts) {
   const std::span<const std::uint32_t> sleeping =
       islands_.empty() ? std::span<const std::uint32_t>{} : std::span<const std::uint32_t>(island_);

@@ -48,6 +48,8 @@ class Sleep {
   /// After the update: those that hardly accelerate go to sleep.
   Taken put_to_sleep(double time, const StepConditions& conditions, Parts parts);
 
+  void exchange(Archive& archive, Parts parts);
+
   double contact_energy() const { return contact_energy_; }  ///< J/m in what sleeps
   double strain_energy() const { return strain_energy_; }
   SleepReport report(double time) const;

@@ -109,7 +109,8 @@ class LinearElastic final : public Material {
 };
 
 constexpr Component components[] = {material<LinearElastic>(
-    "linear_elastic", "Isotropic linear elasticity, corotational: exact under any rotation.", parameters)};
+    "linear_elastic", "Isotropic linear elasticity, corotational: exact under any rotation.", parameters,
+    trait::has_potential)};
 
 }  // namespace
 

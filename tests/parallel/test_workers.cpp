@@ -49,3 +49,16 @@ TEST_CASE("Workers that fell asleep wake up for the next loop", "[parallel]") {
     CHECK(done[1] == round);
   }
 }
+
+TEST_CASE("More threads than cores share many short loops", "[parallel]") {
+  Workers workers(8);
+  std::vector<std::size_t> by(40);
+  std::size_t sum = 0;
+  for (std::size_t round = 0; round < 3000; ++round) {
+    workers.over(by.size(), 1, [&](std::size_t chunk, std::size_t, std::size_t, std::size_t thread) {
+      by[chunk] = chunk + round * (thread < 8 ? 1 : 0);
+    });
+    sum += std::accumulate(by.begin(), by.end(), std::size_t{0});
+  }
+  CHECK(sum == 3000u * 780 + 40u * (2999u * 3000 / 2));
+}

@@ -1,4 +1,3 @@
-#include "figures/rectangle_mesh.hpp"
 #include "figures/runs.hpp"
 #include "output/scratch.hpp"
 #include "parallel/alone.hpp"
@@ -6,6 +5,7 @@
 #include "simulation/deformation.hpp"
 #include "simulation/patch_mass.hpp"
 #include "simulation/working_scene.hpp"
+#include "verification/rectangle_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -41,7 +41,7 @@ Scene lattice(const std::string& material, const std::string& slivers = "merge")
 Scene mesh(const std::string& material) {
   const Scratch scratch;
   const std::string file =
-      scratch.write("plate.msh", figures::RectangleMesh{{0, 0}, {6, 3}, 80, 50}.text()).string();
+      scratch.write("plate.msh", verification::RectangleMesh{{0, 0}, {6, 3}, 80, 50}.text()).string();
   return scene_of(R"({"model": "mesh"})", material, fmt::format(R"("mesh": "{}")", file));
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
     const Model model = build_model(scene);
     const PatchMass mass(model);
     const std::vector<Support> supports(1);
-    Blocks blocks(model, best_simd_level(), alone());
+    Blocks blocks(model, best_simd_level(), alone(), true);
     for (const double ahead : {1e-6, 1.5e-6}) {
       const StepConditions conditions{{0, -9.81}, {0, -9.81}, 20, 1e-6, ahead, true};
       MotionState one(model), two(model);

@@ -132,16 +132,17 @@ TEST_CASE("an interrupted run stops between outputs and goes on", "[simulation][
   WorkingScene text = resting();
   text.output = R"({"history": 0.05})";
   Simulation whole(text.read(), {}), broken(text.read(), {});
-  std::atomic<bool> interrupted = true;
+  bool interrupted = true;
+  const Pause pause = [&] { return interrupted; };
   while (whole.advance()) {
   }
-  broken.advance(&interrupted);
+  broken.advance(pause);
   CHECK(broken.time() == 0);
-  REQUIRE(broken.advance(&interrupted));
+  REQUIRE(broken.advance(pause));
   CHECK(broken.time() > 0);
   CHECK(broken.time() < 0.05);
   interrupted = false;
-  while (broken.advance(&interrupted)) {
+  while (broken.advance(pause)) {
   }
   CHECK(broken.time() == 0.1);
   CHECK(broken.state_hash() == whole.state_hash());

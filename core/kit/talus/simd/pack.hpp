@@ -40,6 +40,32 @@ inline Pack load(const double* from) {
 inline void store(Pack p, double* to) {
   _mm512_storeu_pd(to, p.value);
 }
+/// The first `count` of a row, at most all; the other lanes are 0, and nothing beyond is read.
+inline Pack load_first(const double* from, unsigned count) {
+  return _mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << count) - 1), from);
+}
+inline void store_first(Pack p, double* to, unsigned count) {
+  _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1u << count) - 1), p.value);
+}
+/// Each lane takes from the one before it, the first from the last of `before`.
+inline Pack shifted(Pack before, Pack p) {
+  return _mm512_castsi512_pd(
+      _mm512_maskz_alignr_epi64(0xFF, _mm512_castpd_si512(p.value), _mm512_castpd_si512(before.value), 7));
+}
+/// p₀ q₀ p₁ q₁ …
+inline void interleave(Pack p, Pack q, Pack* to) {
+  const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
+                high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  to[0] = _mm512_permutex2var_pd(p.value, low, q.value);
+  to[1] = _mm512_permutex2var_pd(p.value, high, q.value);
+}
+/// The way back.
+inline void separate(const Pack* from, Pack& p, Pack& q) {
+  const __m512i even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14),
+                odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+  p = _mm512_permutex2var_pd(from[0].value, even, from[1].value);
+  q = _mm512_permutex2var_pd(from[0].value, odd, from[1].value);
+}
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
   const auto two = [&](int lane) {  // of this lane and the one four further on
@@ -150,6 +176,33 @@ inline Pack load(const double* from) {
 inline void store(Pack p, double* to) {
   _mm256_storeu_pd(to, p.value);
 }
+inline __m256i first_lanes(unsigned count) {
+  return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3));
+}
+/// The first `count` of a row, at most all; the other lanes are 0, and nothing beyond is read.
+inline Pack load_first(const double* from, unsigned count) {
+  return _mm256_maskload_pd(from, first_lanes(count));
+}
+inline void store_first(Pack p, double* to, unsigned count) {
+  _mm256_maskstore_pd(to, first_lanes(count), p.value);
+}
+/// Each lane takes from the one before it, the first from the last of `before`.
+inline Pack shifted(Pack before, Pack p) {
+  return _mm256_shuffle_pd(_mm256_permute2f128_pd(before.value, p.value, 0x21), p.value, 0x5);
+}
+/// p₀ q₀ p₁ q₁ …
+inline void interleave(Pack p, Pack q, Pack* to) {
+  const __m256d even = _mm256_unpacklo_pd(p.value, q.value), odd = _mm256_unpackhi_pd(p.value, q.value);
+  to[0] = _mm256_permute2f128_pd(even, odd, 0x20);
+  to[1] = _mm256_permute2f128_pd(even, odd, 0x31);
+}
+/// The way back.
+inline void separate(const Pack* from, Pack& p, Pack& q) {
+  const __m256d low = _mm256_permute2f128_pd(from[0].value, from[1].value, 0x20),
+                high = _mm256_permute2f128_pd(from[0].value, from[1].value, 0x31);
+  p = _mm256_unpacklo_pd(low, high);
+  q = _mm256_unpackhi_pd(low, high);
+}
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
   const __m256d p = _mm256_loadu_pd(from[0]), q = _mm256_loadu_pd(from[1]), r = _mm256_loadu_pd(from[2]),
@@ -247,6 +300,27 @@ inline Pack load(const double* from) {
 }
 inline void store(Pack p, double* to) {
   *to = p.value;
+}
+/// The first `count` of a row, at most all; the other lanes are 0, and nothing beyond is read.
+inline Pack load_first(const double* from, unsigned count) {
+  return count != 0 ? *from : 0.0;
+}
+inline void store_first(Pack p, double* to, unsigned count) {
+  if (count != 0) *to = p.value;
+}
+/// Each lane takes from the one before it, the first from the last of `before`.
+inline Pack shifted(Pack before, Pack /*p*/) {
+  return before;
+}
+/// p₀ q₀ p₁ q₁ …
+inline void interleave(Pack p, Pack q, Pack* to) {
+  to[0] = p;
+  to[1] = q;
+}
+/// The way back.
+inline void separate(const Pack* from, Pack& p, Pack& q) {
+  p = from[0];
+  q = from[1];
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
