@@ -120,7 +120,6 @@ void ContactStage::rebuild_pairs(const Model& model) {
   old_damping_power_.swap(damping_power_);
   pairs_.clear();
   piece_pairs_.clear();
-  std::uint32_t loads = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {
@@ -137,18 +136,11 @@ void ContactStage::rebuild_pairs(const Model& model) {
                             ? 0
                             : std::max(plain_corners_[candidate.body_a], plain_corners_[candidate.body_b])});
     }
-    piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, loads});
+    piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
-    loads += model.piece_start[candidate.piece_a + 1] - model.piece_start[candidate.piece_a];
-    loads += model.piece_start[candidate.piece_b + 1] - model.piece_start[candidate.piece_b];
   }
-  load_x_.resize(loads);
-  load_y_.resize(loads);
-  pair_reports_.resize(pairs_.size());
   ask_again_.assign(pairs_.size(), 0.0);
-  active_.resize(pairs_.size());
-  chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
-  sort_loads_by_body(model);
+  make_room_for_loads(model);
 
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);
@@ -169,6 +161,24 @@ void ContactStage::rebuild_pairs(const Model& model) {
   }
   lay_out_slots(capacities_);
   if (!island_.empty()) hold_sleeping_pairs();
+}
+
+/// Of the pairs there are.
+void ContactStage::make_room_for_loads(const Model& model) {
+  std::uint32_t loads = 0;
+  for (PiecePair& pieces : piece_pairs_) {
+    pieces.load_start = loads;
+    loads += model.piece_start[pieces.a + 1] - model.piece_start[pieces.a];
+    loads += model.piece_start[pieces.b + 1] - model.piece_start[pieces.b];
+  }
+  for (std::vector<double>* values : {&load_x_, &load_y_}) {
+    values->resize(loads + guard_loads);
+    std::fill_n(values->begin() + loads, guard_loads, guard_load);
+  }
+  pair_reports_.resize(pairs_.size());
+  active_.resize(pairs_.size());
+  chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
+  sort_loads_by_body(model);
 }
 
 /// Gives every pair its contact slots, one pair after the other, and moves its history there.
@@ -246,8 +256,10 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
 /// False when the law found more contacts somewhere than there are slots.
 bool ContactStage::call_law(const Model& model, const MotionState& motion, const Conditions& conditions) {
 #ifdef TALUS_AUDIT
-  for (std::vector<double>* values : {&next_history_, &load_x_, &load_y_})
-    std::fill(values->begin(), values->end(), std::numeric_limits<double>::quiet_NaN());
+  const double poison = std::numeric_limits<double>::quiet_NaN();
+  std::fill(next_history_.begin(), next_history_.end(), poison);
+  for (std::vector<double>* values : {&load_x_, &load_y_})
+    std::fill(values->begin(), values->end() - guard_loads, poison);
   keep_sleeping_history();
 #endif
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
+#include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
 #include "kernels/level.hpp"
 #include "model/model.hpp"
@@ -50,9 +52,15 @@ class ContactStage {
   /// Evaluates the law on all pairs and adds the loads to the forces on the moving bodies.
   ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
 
+  /// What the law of the last evaluate() did that no law may do. Costs as much as a look at all loads.
+  LawFault fault(const Model& model, const MotionState& motion) const;
+
   /// What the contacts would hold and have lost, J/m, with the parameters before the last set_interfaces();
   /// no step is taken.
   double with_former_interfaces(const Model& model, const MotionState& motion, const Conditions& conditions);
+
+  /// Between steps. The law's history goes as it is, whoever's law it is.
+  void exchange(Archive& archive, const Model& model);
 
   /// [body] the island that it sleeps in, 0 for none; empty: all are awake. Contacts within an island stay as
   /// they are from the next step on. The array is looked at until the next call.
@@ -68,8 +76,13 @@ class ContactStage {
   std::span<const double> history() const { return history_; }
 
  private:
+  static constexpr std::size_t guard_loads = 8;
+  static constexpr double guard_load = -1.2345678901234567e-300;
+
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
+  void make_room_for_loads(const Model& model);
+  bool fits(const Model& model) const;
   void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
   void make_room();
@@ -82,6 +95,7 @@ class ContactStage {
   ChunkTotals total(std::span<const std::uint32_t> active, std::size_t begin);
   ContactTotals close_step();
   void add_loads(const Model& model, MotionState& motion);
+  double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
   void hold_sleeping_pairs();
   void keep_sleeping_history();
@@ -121,7 +135,7 @@ class ContactStage {
   std::vector<double> history_, next_history_;
   std::vector<ContactReport> reports_;
   std::vector<PairReport> pair_reports_;
-  std::vector<double> load_x_, load_y_;
+  std::vector<double> load_x_, load_y_;          ///< and guard_loads more, which no law may touch
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
 };

@@ -110,8 +110,20 @@ TEST_CASE("between bodies of any covers the contact force is minus the gradient 
   }
 }
 
+TEST_CASE("feng_volume finds one contact along a boundary of strips", "[contact][strips]") {
+  const double whole = Pressed(corner_on_flat(block, block, "feng_volume")).at(-0.01, 0.1).force_b.x;
+  const std::pair<const char*, const char*> covers[] = {{block, fine}, {coarse, fine}, {fine, coarse}};
+  for (const auto& [a, b] : covers) {
+    INFO(a << ' ' << b);
+    const Pressed pressed(corner_on_flat(a, b, "feng_volume"));
+    for (int i = 0; i < 12; ++i)
+      CHECK(pressed.at(-0.01, -0.2 + 0.037 * i).force_b.x == Approx(whole).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("loads on bodies of any covers are equal and opposite and leave no moment", "[contact][strips]") {
-  for (const char* law : {"frictionless", "overlap_area", "vertex_edge"}) {
+  for (const char* law : {"frictionless", "overlap_area", "vertex_edge", "feng_volume", "cohesive_overlap",
+                          "potential_symmetric"}) {
     for (const auto& [a, b] : {std::pair{block, fine}, std::pair{coarse, fine}}) {
       const Pressed pressed(corner_on_flat(a, b, law));
       for (const double turn : {0.0, 0.05, -0.15, -0.3}) {

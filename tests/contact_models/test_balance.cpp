@@ -1,4 +1,5 @@
-#include "contact_models/pairs.hpp"
+#include "conformance/pairs.hpp"
+#include "contact_models/law_bench.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -58,10 +59,11 @@ TEST_CASE("Pairs at random do overlap: the tests above mean something", "[laws]"
     std::size_t loaded = 0;
     const auto pairs = all_pairs();
     for (const HeldPair& pair : pairs) {
-      LawBench bench(law);
+      LawBench bench(law, undamped_interface());  // with a dashpot, those that part may be free of load
       bench.bodies = pair.bodies;
       if (bench.look().size() > 1) ++loaded;
     }
+    INFO(law);
     CHECK(loaded >= pairs.size() - 6);
   }
 }
@@ -174,7 +176,7 @@ TEST_CASE("|T| <= mu P in every contact, sticking or slipping", "[laws]") {
         }
       }
     }
-    if (law == "frictionless") continue;
+    if (!has_friction(law)) continue;
     CHECK(slipping > 3);
     CHECK(sticking > 50);
   }
@@ -229,7 +231,9 @@ TEST_CASE("Slivers as thin as the rounding of their corners make no force and no
              << " m off");
     CHECK(found > 1000);
     CHECK(farthest < 0.6);
-    CHECK(force < 1e-4);
-    CHECK(moment < 1e-4);
+    // What pressure there is at such depths, 1e-13 m at most, over half a metre: α g, or κ √A.
+    const double allowed = law == "feng_volume" ? 1e9 * std::sqrt(0.5 * 1e-13) * 0.5 : 1e-4;
+    CHECK(force < allowed);
+    CHECK(moment < allowed);
   }
 }

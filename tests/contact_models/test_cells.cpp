@@ -1,4 +1,6 @@
-#include "contact_models/pairs.hpp"
+#include "conformance/boundary_arrays.hpp"
+#include "conformance/pairs.hpp"
+#include "contact_models/law_bench.hpp"
 
 #include <talus/overlap/cells.hpp>
 

@@ -1,4 +1,5 @@
-#include "contact_models/pairs.hpp"
+#include "conformance/pairs.hpp"
+#include "contact_models/law_bench.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -6,6 +6,7 @@
 #include <talus/overlap/friction.hpp>
 #include <talus/overlap/grouping.hpp>
 #include <talus/overlap/lane_contact.hpp>
+#include <talus/overlap/pressure.hpp>
 
 #include <span>
 
@@ -13,12 +14,28 @@ namespace talus::overlap {
 
 /// Contact by the overlap area (§3): pressure α_N g over the overlap, g the distance to the nearest side of
 /// the master. `Law` says how an interface is read (`Law::interface(values)`), whether there is friction
-/// (`Law::frictional`) and by which rule (`rule()`). One object serves one thread.
+/// (`Law::frictional`) and by which rule (`rule()`); it may have a pressure of its own (`pressure()`), which
+/// takes the place of α_N g everywhere and keeps it from the lanes. One object serves one thread.
 template <class Law>
 class DistributedContact {
  public:
   /// Plain bodies go side by side through the lanes; the others, and what the lanes hand back, one by one.
   void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
+    if constexpr (HasOwnPressure<Law>) {
+      evaluate_one_by_one(law, batch, loads);
+    } else {
+      evaluate_in_lanes(law, batch, loads);
+    }
+  }
+
+  /// The same one by one, whatever the bodies are.
+  void evaluate_one_by_one(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k)
+      evaluate_pair(law, batch, loads, batch.pairs[batch.active[k]], loads.pairs[batch.active[k]]);
+  }
+
+ private:
+  void evaluate_in_lanes(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
     const auto one_by_one = [&](std::uint32_t i) {
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
     };
@@ -40,13 +57,6 @@ class DistributedContact {
     octagons_.evaluate(law, batch, loads, one_by_one);
   }
 
-  /// The same one by one, whatever the bodies are.
-  void evaluate_one_by_one(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
-    for (std::uint32_t k = 0; k < batch.active_count; ++k)
-      evaluate_pair(law, batch, loads, batch.pairs[batch.active[k]], loads.pairs[batch.active[k]]);
-  }
-
- private:
   static bool fits_lanes(const Law& law) {
     if constexpr (Law::frictional) return law.rule() == FrictionRule::return_mapping;
     return true;
@@ -102,7 +112,7 @@ class DistributedContact {
                     std::uint32_t master_body, double share, PairReport& report) {
     const std::size_t first_cell = cells_.size();
     if (!among_strips_) balance_ = {};
-    bool uniform = true;
+    bool uniform = !HasOwnPressure<Law>;
     std::uint32_t members = 0;
     for (const Overlap& overlap : finder_.overlaps()) {
       if (overlap.group != group) continue;
@@ -114,20 +124,31 @@ class DistributedContact {
         if (!(region.area > 0)) return;
         const auto first_segment = static_cast<std::uint32_t>(segments_.size());
         find_segments(master, slave, side, 1 - master_body, cell);
-        const InterfaceParameters parameters =
+        InterfaceParameters parameters =
             interface_of(law, interfaces, overlap, master, slave, side, first_segment);
-        const double load = share * parameters.normal_stiffness * region.area;
         const Point normal = master.normal(side);
-        const double depth = master.depth(side, region.centroid);
-        report.stored += load * depth;
+        double load = 0;
+        Point foot{0, 0};
+        if constexpr (HasOwnPressure<Law>) {
+          const CellPressure in_cell = integrate(law, parameters, master, side, cell);
+          load = share * in_cell.load;
+          report.stored += share * in_cell.energy;
+          foot = in_cell.centre + master.depth(side, in_cell.centre) * normal;
+        } else {
+          load = share * parameters.normal_stiffness * region.area;
+          const double depth = master.depth(side, region.centroid);
+          report.stored += load * depth;
+          foot = region.centroid + depth * normal;
+        }
         normal_on_b_ = normal_on_b_ + (master_body == 0 ? load : -load) * normal;
-
-        const Point foot = region.centroid + depth * normal;
         sink.on_side(master, side, master.lever(side, foot), -load * normal);
         balance_.add(foot, -load * normal);
         for (std::size_t s = first_segment; s < segments_.size(); ++s) {
-          load_slave(sink, slave, segments_[s], share * parameters.normal_stiffness);
+          find_slave_loads(law, parameters, share, segments_[s]);
+          load_slave(sink, slave, segments_[s]);
         }
+        // What a dashpot is measured by: the mean slope of the pressure.
+        if constexpr (HasOwnPressure<Law>) parameters.normal_stiffness = load / (share * region.area);
         if (cells_.size() > first_cell) {
           uniform = uniform && cells_[first_cell].interface.normal_stiffness == parameters.normal_stiffness;
         }
@@ -198,10 +219,22 @@ class DistributedContact {
   }
 
   /// Eqs. 30–32 (with the factor 3 that Eq. 31 misses), as end loads: l/6 (2p₁+p₂) and l/6 (p₁+2p₂).
-  void load_slave(const LoadSink& sink, const Piece& slave, Segment& segment, double stiffness) {
+  static void find_slave_loads(const Law& law, const InterfaceParameters& parameters, double share,
+                               Segment& segment) {
+    if constexpr (HasOwnPressure<Law>) {
+      integrate(law, parameters, segment, segment.load);
+      for (double& load : segment.load) load *= share;
+    } else {
+      const double stiffness = share * parameters.normal_stiffness;
+      for (int end = 0; end < 2; ++end)
+        segment.load[end] =
+            stiffness * segment.length * (2 * segment.depth[end] + segment.depth[1 - end]) / 6;
+    }
+  }
+
+  void load_slave(const LoadSink& sink, const Piece& slave, const Segment& segment) {
     const Point inward = -1.0 * slave.normal(segment.side);
     for (int end = 0; end < 2; ++end) {
-      segment.load[end] = stiffness * segment.length * (2 * segment.depth[end] + segment.depth[1 - end]) / 6;
       const Point force = segment.load[end] * inward;
       sink.on_side(slave, segment.side, slave.lever(segment.side, segment.at[end]), force);
       balance_.add(segment.at[end], force);

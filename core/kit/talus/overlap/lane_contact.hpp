@@ -216,13 +216,28 @@ class LaneContact {
   }
 
   /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it. Of the arcs, which share
-  /// their ends, one tells the contact length.
+  /// their ends, one tells the contact length. Where the overlap is no more than rounding, one role may see
+  /// all of it and the other next to nothing: then the longer arc tells, or dashpots along it would be those
+  /// of a point. An arc that closes on itself has no length.
   void find_tangent() {
     const Packs2 force = roles_ == 2 ? cells_[0].force - cells_[1].force : cells_[0].force;
     const Pack size = simd::sqrt(simd::dot(force, force));
     const Pack inverse = simd::only_where(size > 0.0, 1.0 / size);  // springs may have no stiffness
     tangent_ = {-force.y * inverse, force.x * inverse};
     contact_length_ = simd::abs(simd::dot(cells_[0].arc, tangent_));
+    Pack longest = arc_size(cells_[0]);
+    if (roles_ == 2) {
+      const Pack other = simd::abs(simd::dot(cells_[1].arc, tangent_));
+      contact_length_ = simd::select(other > contact_length_ + contact_length_, other, contact_length_);
+      longest = simd::max(longest, arc_size(cells_[1]));
+    }
+    contact_length_ = simd::only_where(contact_length_ > 1e-9 * longest, contact_length_);
+  }
+
+  static Pack arc_size(const LaneCells<corners>& cells) {
+    Pack size = 0.0;
+    for (int i = 0; i < cells.segment_start[cells.cell_count]; ++i) size = size + cells.segment[i].length;
+    return size;
   }
 
   struct Report {

@@ -1,0 +1,46 @@
+#include "contact/contact_stage.hpp"
+
+namespace talus {
+
+void ContactStage::exchange(Archive& archive, const Model& model) {
+  if (!law_) return;
+  archive(slack_);
+  archive(travelled_);
+  archive(searches_);
+  archive.of_known_size(lightest_neighbour_);
+  archive(pairs_);
+  archive(piece_pairs_);
+  archive(ask_again_);
+  archive(damping_power_);
+  archive(history_);
+  archive(reports_);
+  archive(pair_reports_);
+  archive(island_);
+  if (!archive.reading()) return;
+  if (!fits(model)) Archive::refuse();
+  capacities_.resize(pairs_.size());
+  next_history_.resize(history_.size());
+  make_room_for_loads(model);
+  if (!island_.empty()) hold_sleeping_pairs();
+}
+
+/// Whether all indices lead into the arrays of this scene.
+bool ContactStage::fits(const Model& model) const {
+  const std::size_t pairs = pairs_.size(), slots = reports_.size();
+  if (ask_again_.size() != pairs || damping_power_.size() != pairs || pair_reports_.size() != pairs ||
+      history_.size() != slots * history_doubles_ ||
+      !(island_.empty() || island_.size() == model.bodies.size()))
+    return false;
+  for (const PiecePair& pieces : piece_pairs_) {
+    if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
+  }
+  for (const BodyPair& pair : pairs_) {
+    if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
+        pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
+        pair.contact_count > pair.slot_capacity || std::size_t{pair.slot_start} + pair.slot_capacity > slots)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+#include "apps/program.hpp"
+#include "output/scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Contains;
+
+TEST_CASE("A run stops with words when a law breaks the rules of loads", "[contact]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  const auto trouble_of = [&](const std::string& law) {
+    INFO(law);
+    const Call call =
+        call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES, "--set",
+                                      "/contact/model=" + law, "--overwrite"});
+    CHECK(call.code == 4);
+    CHECK_THAT(call.err, Contains("libmisbehaving.so: contact law '" + law + "' gave ") &&
+                             Contains("t = 0 s") && Contains("wanted finite loads") &&
+                             Contains("mend the law"));
+    return call.err;
+  };
+  CHECK_THAT(trouble_of("nan_load"),
+             Contains("a load that is no number between 'slab' at") && Contains("'block' at"));
+  CHECK_THAT(trouble_of("nan_report"), Contains("a report that is no number between"));
+  CHECK_THAT(trouble_of("past_the_end"), Contains("a load written past the last corner of all pairs"));
+  CHECK_THAT(trouble_of("one_sided"), Contains("leave a force of 1 N/m over, of 1 between"));
+  CHECK_THAT(trouble_of("couple"), Contains("leave a moment of 1 N over"));
+}
