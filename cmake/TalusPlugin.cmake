@@ -1,5 +1,9 @@
+# talus_add_plugin: how a plugin is built, within the tree and outside of it (find_package(talus)).
+
+option(TALUS_SIMD "Build the loops and the plugins for AVX2 and AVX-512, too, and pick when the program starts" ON)
+
 # Instruction sets a plugin is compiled for beside the baseline of the machine's kind. The program loads the best
-# that the machine has: lib/talus/plugins/<level>/lib<name>.so in place of lib/talus/plugins/lib<name>.so.
+# that the machine has: <folder>/<level>/lib<name>.so in place of <folder>/lib<name>.so.
 set(talus_simd_levels)
 if(TALUS_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(talus_simd_levels avx2 avx512)
@@ -7,16 +11,25 @@ if(TALUS_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(talus_flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 endif()
 
-function(talus_add_plugin_library target name folder)
+function(talus_add_plugin_library target name level)
   add_library(${target} MODULE ${ARGN})
-  target_link_libraries(${target} PRIVATE talus_kit)
+  target_link_libraries(${target} PRIVATE talus::kit)
   set_target_properties(${target} PROPERTIES
-    CXX_VISIBILITY_PRESET hidden
-    VISIBILITY_INLINES_HIDDEN ON
+    PREFIX lib
+    SUFFIX .so
     OUTPUT_NAME ${name}
-    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/talus/plugins/${folder})
-  # Results stay those of IEEE 754; loops may be vectorised that set errno or flags nobody reads.
-  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+    CXX_EXTENSIONS OFF
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+  get_target_property(folder ${target} LIBRARY_OUTPUT_DIRECTORY)
+  if(NOT folder)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${folder}/${level})
+  # Same bits everywhere: no contraction to fused multiply-add. Results stay those of IEEE 754; loops may be
+  # vectorised that set errno or flags nobody reads.
+  target_compile_options(${target} PRIVATE
+    -ffp-contract=off -fno-math-errno -fno-trapping-math ${talus_flags_${level}})
   # Symbols unique to the process would make the levels share code.
   if(talus_simd_levels AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     target_compile_options(${target} PRIVATE -fno-gnu-unique)
@@ -25,12 +38,13 @@ function(talus_add_plugin_library target name folder)
   if(NOT TALUS_SANITIZE)
     target_link_options(${target} PRIVATE -Wl,--no-undefined)
   endif()
-  install(TARGETS ${target} LIBRARY DESTINATION lib/talus/plugins/${folder})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/talus/plugins/${level})
 endfunction()
 
-# talus_add_plugin(name [SIMD] sources...): a shared library that talus loads. Hidden visibility, nothing undefined,
-# the one exported symbol is `talus_library`. SIMD builds it for each instruction set, too: worth it for what works
-# in every step.
+# talus_add_plugin(name [SIMD] sources...): a shared library that talus loads, in CMAKE_LIBRARY_OUTPUT_DIRECTORY or
+# the folder of the build. Hidden visibility, nothing undefined; the one exported symbol is `talus_library`. SIMD
+# builds it for each instruction set, too: worth it for what works in every step. `cmake --install` puts it where the
+# program finds it, if the prefix is that of talus.
 function(talus_add_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 plugin "SIMD" "" "")
   talus_add_plugin_library(${name} ${name} "" ${plugin_UNPARSED_ARGUMENTS})
@@ -39,7 +53,6 @@ function(talus_add_plugin name)
   endif()
   foreach(level IN LISTS talus_simd_levels)
     talus_add_plugin_library(${name}.${level} ${name} ${level} ${plugin_UNPARSED_ARGUMENTS})
-    target_compile_options(${name}.${level} PRIVATE ${talus_flags_${level}})
     add_dependencies(${name} ${name}.${level})
   endforeach()
 endfunction()

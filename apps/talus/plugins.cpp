@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "plugin/refusal.hpp"
 #include "scene_options.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +8,12 @@
 namespace talus {
 
 namespace {
+
+const char* or_dash(const char* text) {
+  return text == nullptr || *text == '\0' ? "-" : text;
+}
+
+}  // namespace
 
 Usage usage_of_plugins() {
   Usage usage{
@@ -17,24 +24,6 @@ Usage usage_of_plugins() {
   add_plugin_path(usage);
   return usage;
 }
-
-const char* kind_text(ComponentKind kind) {
-  switch (kind) {
-    case ComponentKind::contact_model:
-      return "contact law";
-    case ComponentKind::material:
-      return "material";
-    case ComponentKind::cover_builder:
-      return "cover";
-  }
-  return "";
-}
-
-const char* or_dash(const char* text) {
-  return text == nullptr || *text == '\0' ? "-" : text;
-}
-
-}  // namespace
 
 int plugins_command(const Words& words) {
   const Usage usage = usage_of_plugins();
@@ -54,7 +43,7 @@ int plugins_command(const Words& words) {
                  or_dash(entry.library->author), entry.file.string());
     }
     last = entry.library;
-    fmt::print("  {:<11} {:<16} {}\n", kind_text(entry.component->kind), entry.component->name,
+    fmt::print("  {:<11} {:<16} {}\n", kind_in_words(entry.component->kind), entry.component->name,
                or_dash(entry.component->sentence));
   }
   if (registry.components().empty()) fmt::print("\nno library was loaded\n");

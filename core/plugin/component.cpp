@@ -174,7 +174,7 @@ std::optional<std::string> reason_to_refuse(const Component& component) {
   }
   if (component.kind != ComponentKind::contact_model && component.interface_parameter_count != 0) {
     return fmt::format(
-        "found interface parameters in a {}, wanted them in contact models only; remove them and "
+        "found interface parameters in a {}, wanted them in contact laws only; remove them and "
         "rebuild the library",
         kind_in_words(component.kind));
   }

@@ -1,3 +1,4 @@
+#include "plugin/instructions.hpp"
 #include "plugin/refusal.hpp"
 #include "plugin/registry.hpp"
 
@@ -65,7 +66,7 @@ std::optional<std::string> reason_in_identity(const Library& library) {
 
 }  // namespace
 
-std::optional<std::string> reason_to_refuse(const Library& library) {
+std::optional<std::string> reason_in_numbers(const Library& library) {
   // Magic and ABI number stand in the first eight bytes of every version; nothing else can be trusted before.
   if (library.magic != library_magic) {
     return fmt::format(
@@ -78,6 +79,19 @@ std::optional<std::string> reason_to_refuse(const Library& library) {
     return fmt::format("found ABI {}, wanted ABI {}; {}", library.abi, abi_number, rebuild());
   }
   if (auto reason = reason_in_sizes(library)) return reason;
+  if (const std::string lacking = instructions_lacking(library.instructions); !lacking.empty()) {
+    return fmt::format(
+        "found code for instructions that this machine lacks ({}), wanted a library that runs here; rebuild "
+        "it "
+        "without -march=native or the like (talus_add_plugin(name SIMD ...) builds one for each kind of "
+        "machine)",
+        lacking);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> reason_to_refuse(const Library& library) {
+  if (auto reason = reason_in_numbers(library)) return reason;
   if (auto reason = reason_in_identity(library)) return reason;
   std::set<std::pair<ComponentKind, std::string_view>> names;
   for (std::uint32_t i = 0; i < library.component_count; ++i) {

@@ -1,3 +1,4 @@
+#include "plugin/descriptor_in_file.hpp"
 #include "plugin/refusal.hpp"
 #include "plugin/registry.hpp"
 
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -46,6 +48,22 @@ fs::path variant_of(const fs::path& file, SimdLevel level) {
   return file;
 }
 
+std::string no_descriptor() {
+  return fmt::format(
+      "found no symbol '{}', wanted the descriptor of a talus plugin; export it with "
+      "TALUS_EXPORT, or take the file out of the folders of plugins",
+      symbol);
+}
+
+/// What speaks against loading a file at all: to load it is to run its constructors, which must not happen on
+/// a machine that lacks their instructions.
+std::optional<std::string> reason_before_loading(const fs::path& file) {
+  const DescriptorInFile descriptor = descriptor_in_file(file, symbol);
+  if (!descriptor.is_library) return std::nullopt;
+  if (!descriptor.has_symbol) return no_descriptor();
+  return reason_in_numbers(descriptor.bytes);
+}
+
 /// Loads a library and adds its components, or says why not.
 std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path& file) {
   std::error_code problem;
@@ -58,13 +76,10 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
   }
   const Library* library = nullptr;
   try {
-    const boost::dll::shared_library opened = open_for_good(variant_of(file, registry.simd));
-    if (!opened.has(symbol)) {
-      return fmt::format(
-          "found no symbol '{}', wanted the descriptor of a talus plugin; export it with "
-          "TALUS_EXPORT, or take the file out of the folders of plugins",
-          symbol);
-    }
+    const fs::path variant = variant_of(file, registry.simd);
+    if (auto reason = reason_before_loading(variant)) return reason;
+    const boost::dll::shared_library opened = open_for_good(variant);
+    if (!opened.has(symbol)) return no_descriptor();
     library = &opened.get<const Library>(symbol);
   } catch (const std::exception& trouble) {
     return fmt::format(
@@ -78,15 +93,13 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
   return std::nullopt;
 }
 
-}  // namespace
-
-void load_library(Registry& registry, const fs::path& file) {
-  // A bare name would be looked up in the current directory, or in the folders of the system.
-  const fs::path path = fs::absolute(file).lexically_normal();
-  if (const auto reason = reason_not_loaded(registry, path)) throw refusal(path, *reason);
+void load_or_refuse(Registry& registry, const fs::path& file) {
+  if (auto reason = reason_not_loaded(registry, file)) registry.refused.push_back({file, *std::move(reason)});
 }
 
-void load_folders(Registry& registry, std::span<const fs::path> folders) {
+/// Calls `take` with each `lib*.so` of the folders, in order.
+template <class Take>
+void over_libraries(Registry& registry, std::span<const fs::path> folders, const Take& take) {
   for (const fs::path& folder : folders) {
     const fs::path path = fs::absolute(folder).lexically_normal();
     std::error_code problem;
@@ -103,12 +116,89 @@ void load_folders(Registry& registry, std::span<const fs::path> folders) {
                              problem.message())});
     }
     std::ranges::sort(files);
-    for (const fs::path& file : files) {
-      if (auto reason = reason_not_loaded(registry, file)) {
-        registry.refused.push_back({file, *std::move(reason)});
-      }
-    }
+    for (const fs::path& file : files) take(file);
   }
+}
+
+bool bring_the_same(const OfferedLibrary& p, const OfferedLibrary& q) {
+  return std::ranges::any_of(p.brings, [&](const ComponentName& name) {
+    return std::ranges::find(q.brings, name) != q.brings.end();
+  });
+}
+
+/// Those before it that bring a name of its own are loaded first: it is refused as if all were.
+void load_one_offered(Registry& registry, const fs::path& file) {
+  const auto place = [&] { return std::ranges::find(registry.offered, file, &OfferedLibrary::file); };
+  for (auto own = place(); own != registry.offered.end(); own = place()) {
+    const auto rival = std::find_if(registry.offered.begin(), own,
+                                    [&](const OfferedLibrary& other) { return bring_the_same(other, *own); });
+    if (rival == own) {
+      registry.offered.erase(own);
+      load_or_refuse(registry, file);
+      return;
+    }
+    load_one_offered(registry, fs::path(rival->file));
+  }
+}
+
+/// What a file brings; nothing where only loading it will tell.
+std::optional<std::vector<ComponentName>> brought_by(const fs::path& file, SimdLevel level) {
+  try {
+    return components_in_file(variant_of(file, level), symbol);
+  } catch (const std::exception&) {
+    return std::nullopt;  // that it cannot be read is told where it is loaded
+  }
+}
+
+/// What the folders offer keeps its names: it comes before a library that is named by its path.
+void load_rivals(Registry& registry, const fs::path& file) {
+  if (registry.offered.empty()) return;
+  const auto brings = brought_by(file, registry.simd);
+  if (!brings) {
+    load_offered(registry);
+    return;
+  }
+  for (const ComponentName& name : *brings) demand(registry, name.kind, name.name);
+}
+
+}  // namespace
+
+void load_library(Registry& registry, const fs::path& file) {
+  // A bare name would be looked up in the current directory, or in the folders of the system.
+  const fs::path path = fs::absolute(file).lexically_normal();
+  load_rivals(registry, path);
+  if (const auto reason = reason_not_loaded(registry, path)) throw refusal(path, *reason);
+}
+
+void load_folders(Registry& registry, std::span<const fs::path> folders) {
+  over_libraries(registry, folders, [&](const fs::path& file) { load_or_refuse(registry, file); });
+}
+
+void offer_folders(Registry& registry, std::span<const fs::path> folders) {
+  over_libraries(registry, folders, [&](const fs::path& file) {
+    if (auto brings = brought_by(file, registry.simd)) {
+      registry.offered.push_back({file, *std::move(brings)});
+    } else {
+      load_or_refuse(registry, file);
+    }
+  });
+}
+
+const RegisteredComponent* demand(Registry& registry, ComponentKind kind, const std::string& name) {
+  const ComponentName wanted{kind, name};
+  while (true) {
+    if (const RegisteredComponent* found = registry.find(kind, name)) return found;
+    const auto offer = std::ranges::find_if(registry.offered, [&](const OfferedLibrary& library) {
+      return std::ranges::find(library.brings, wanted) != library.brings.end();
+    });
+    if (offer == registry.offered.end()) return nullptr;
+    load_one_offered(registry, fs::path(offer->file));
+  }
+}
+
+void load_offered(Registry& registry) {
+  const std::vector<OfferedLibrary> rest = std::exchange(registry.offered, {});
+  for (const OfferedLibrary& library : rest) load_or_refuse(registry, library.file);
 }
 
 }  // namespace talus

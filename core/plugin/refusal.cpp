@@ -7,11 +7,11 @@ namespace talus {
 std::string_view kind_in_words(ComponentKind kind) {
   switch (kind) {
     case ComponentKind::contact_model:
-      return "contact model";
+      return "contact law";
     case ComponentKind::material:
       return "material";
     case ComponentKind::cover_builder:
-      return "cover builder";
+      return "cover";
   }
   return "component of an unknown kind";
 }

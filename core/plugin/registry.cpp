@@ -29,7 +29,6 @@ void Registry::add(const Library& library, const std::filesystem::path& file) {
       std::ranges::any_of(components_, [&](const auto& entry) { return entry.library == &library; });
   if (known) return;
   if (const auto reason = reason_of_clash(*this, library)) throw refusal(file, *reason);
-  components_.reserve(components_.size() + library.component_count);
   for (std::uint32_t i = 0; i < library.component_count; ++i) {
     components_.push_back({&library.components[i], &library, file});
   }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "plugin/descriptor_in_file.hpp"
 #include "plugin/simd_level.hpp"
 
 #include <talus/library.hpp>
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,6 +36,12 @@ struct RefusedLibrary {
   std::string reason;  ///< without the name of the file
 };
 
+/// A library of the folders that is not loaded until somebody names what it brings.
+struct OfferedLibrary {
+  std::filesystem::path file;
+  std::vector<ComponentName> brings;
+};
+
 /// The components that can be named by a scene.
 class Registry {
  public:
@@ -42,14 +50,15 @@ class Registry {
 
   const RegisteredComponent* find(ComponentKind kind, std::string_view name) const;
   std::vector<std::string> names(ComponentKind kind) const;  ///< sorted
-  std::span<const RegisteredComponent> components() const { return components_; }
+  const std::deque<RegisteredComponent>& components() const { return components_; }
   std::vector<RefusedLibrary> refused;  ///< libraries of the search folders that did not fit
+  std::vector<OfferedLibrary> offered;  ///< in the order of the folders
 
   /// Of a library that was built for several levels, the best up to this one is loaded.
   SimdLevel simd = best_simd_level();
 
  private:
-  std::vector<RegisteredComponent> components_;
+  std::deque<RegisteredComponent> components_;  ///< scenes point into it while more come
 };
 
 /// Words for what is wrong with a descriptor, or nothing if it fits this program (magic, ABI, sizes, units,
@@ -62,6 +71,20 @@ void load_library(Registry& registry, const std::filesystem::path& file);
 /// Loads `lib*.so` of each folder in order and in sorted order within; a library that does not fit goes to
 /// `registry.refused`. A component name found in an earlier folder wins silently only over the same file.
 void load_folders(Registry& registry, std::span<const std::filesystem::path> folders);
+
+/// The same folders, but a library whose file tells what it brings is loaded by demand() alone: what nobody
+/// names runs no code and takes no memory.
+void offer_folders(Registry& registry, std::span<const std::filesystem::path> folders);
+
+/// A component, its library loaded if it was offered; of several that bring the name the first, as by
+/// load_folders(). Null where there is none.
+const RegisteredComponent* demand(Registry& registry, ComponentKind kind, const std::string& name);
+
+/// Loads all that is still offered.
+void load_offered(Registry& registry);
+
+/// The prefix of the installation this program belongs to: the folder above that of the program itself.
+std::filesystem::path installation_prefix();
 
 /// --plugin-path entries, then TALUS_PLUGIN_PATH (colon-separated), then lib/talus/plugins of the
 /// installation this program belongs to.

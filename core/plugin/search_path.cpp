@@ -7,6 +7,10 @@
 
 namespace talus {
 
+std::filesystem::path installation_prefix() {
+  return boost::dll::program_location().parent_path().parent_path();
+}
+
 std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line) {
   std::vector<std::filesystem::path> folders;
   for (const auto& folder : from_command_line) folders.push_back(std::filesystem::absolute(folder));
@@ -19,8 +23,7 @@ std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::
       rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
     }
   }
-  const std::filesystem::path prefix = boost::dll::program_location().parent_path().parent_path();
-  folders.push_back(prefix / "lib" / "talus" / "plugins");
+  folders.push_back(installation_prefix() / "lib" / "talus" / "plugins");
   return folders;
 }
 

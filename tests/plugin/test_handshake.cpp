@@ -51,7 +51,7 @@ TEST_CASE("Name, version, author and units of a library must stand", "[plugin]")
 TEST_CASE("Two components of a kind in one library have two names", "[plugin]") {
   Component components[] = {fitting_component("twin"), fitting_component("twin")};
   CHECK_THAT(reason_to_refuse(fitting_library(components, 2)).value_or(""),
-             Contains("two contact models called 'twin'"));
+             Contains("two contact laws called 'twin'"));
   components[1].kind = ComponentKind::material;
   CHECK(!reason_to_refuse(fitting_library(components, 2)));
 }

@@ -1,109 +1,112 @@
-// A contact law built outside the tree, against the plugin kit alone, as a stranger would.
+// Plugins built outside the tree, against an installed talus alone, as a stranger would.
+#include "apps/installation.hpp"
 #include "plugin/descriptors.hpp"
 
 #include <catch2/catch.hpp>
+#include <talus/testing/two_bodies.hpp>
 
-#include <unistd.h>
+#include <nlohmann/json.hpp>
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 using namespace talus;
+using Catch::Contains;
 
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Two pieces of four corners: a unit square (body a) and a square on its tip (body b), whose lowest corner
-/// is `depth` below the top of the first, at a quarter of its width.
-struct TwoSquares {
-  static constexpr double half = 0.70710678118654752;  // cosine of 45 degrees
-  std::array<BoundaryCorner, 8> corners{{{0, 0, 1, 0, 0, 0, 1, 0, 0},
-                                         {1, 0, 0, 1, 0, 0, 1, 0, 0},
-                                         {1, 1, -1, 0, 0, 0, 1, 0, 0},
-                                         {0, 1, 0, -1, 0, 0, 1, 0, 0},
-                                         {0, -1, half, half, 0, 0, 2 * half, 0, 0},
-                                         {1, 0, -half, half, 0, 0, 2 * half, 0, 0},
-                                         {0, 1, -half, -half, 0, 0, 2 * half, 0, 0},
-                                         {-1, 0, half, -half, 0, 0, 2 * half, 0, 0}}};
-  std::array<std::uint32_t, 3> piece_start{0, 4, 8};
-  std::array<std::uint8_t, 2> is_strip{};
-  std::uint32_t row = 0;
-  double stiffness = 3e6;
-  PiecePair pieces{0, 1, 0};
-  BodyPair pair{};
-  std::array<double, 8> fx{}, fy{};
-  std::array<ContactReport, 4> reports{};
-  PairReport report{};
-  double clear_depth = 0;
-  std::uint32_t active = 0;
+/// A unit square (body a) and a square on its tip (body b), whose lowest corner is `depth` below the top of
+/// the first, at a quarter of its width.
+testing::Outcome pushed(const ContactModel& law, double depth) {
+  testing::TwoBodies squares({{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                             {{0.25, 1 - depth}, {1.25, 2 - depth}, {0.25, 3 - depth}, {-0.75, 2 - depth}});
+  return squares.evaluate(law, {3e6});
+}
 
-  explicit TwoSquares(double depth) {
-    pair.b = 1;
-    pair.piece_pair_end = 1;
-    pair.offset_x = 0.25;
-    pair.offset_y = 2 - depth;
-    pair.master_share = 0.5;
-    pair.slot_capacity = 4;
+/// State after a tenth of a second on the incline with the overlap-area law of a folder, or the built-in one.
+std::string state_with(const Installation& installed, const std::string& folder) {
+  std::vector<std::string> words{"run",   "scenes/incline.json", "--quiet",
+                                 "--set", "/time/end=0.1",       "--overwrite"};
+  if (!folder.empty()) {
+    words.insert(words.end(), {"--plugin-path", folder});
+    const Call described = installed.talus({"plugins", "--plugin-path", folder});
+    CHECK_THAT(described.out, Contains((installed.work() / folder / "liboverlap_area.so\n").string()));
   }
-
-  void evaluate(const ContactModel& law) {
-    fx = fy = {};
-    report = {};
-    ContactBatch batch{};
-    batch.boundaries = {corners.data(), piece_start.data(), is_strip.data(), &clear_depth};
-    batch.interfaces = {&row, &stiffness, 1, 1};
-    batch.pairs = &pair;
-    batch.piece_pairs = &pieces;
-    batch.active = &active;
-    batch.active_count = 1;
-    batch.dt = 1e-4;
-    law.evaluate(batch, {fx.data(), fy.data(), nullptr, reports.data(), &report});
-  }
-};
+  const Call call = installed.talus(words);
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  return json_of(installed.work() / "out" / "incline" / "run.json").at("state_hash");
+}
 
 }  // namespace
 
 TEST_CASE("A law built outside the tree loads and pushes", "[plugin]") {
-  const fs::path build = fs::temp_directory_path() / ("talus-outside." + std::to_string(getpid()));
-  const std::string command = std::string("'" TALUS_CMAKE "' -S '" TALUS_OUTSIDE "' -B '") + build.string() +
-                              "' -G Ninja -DTALUS_KIT='" TALUS_KIT "' > /dev/null && '" TALUS_CMAKE
-                              "' --build '" +
-                              build.string() + "' > /dev/null";
-  REQUIRE(std::system(command.c_str()) == 0);
+  const Installation installed;
+  const Call build = installed.shell(
+      fmt::format("'{0}' -S '{1}' -B build -G Ninja && '{0}' --build build", TALUS_CMAKE, TALUS_OUTSIDE));
+  INFO(build.out << build.err);
+  REQUIRE(build.code == 0);
   Registry registry;
-  load_library(registry, build / "libsoft_corner.so");
+  load_library(registry, installed.work() / "build" / "libsoft_corner.so");
   const RegisteredComponent* entry = registry.find(ComponentKind::contact_model, "soft_corner");
   REQUIRE(entry != nullptr);
   CHECK(std::string(entry->library->author) == "somebody else");
   CHECK(std::string(entry->component->interface_parameters[0].key) == "normal_stiffness");
+  CHECK(fs::exists(installed.work() / "build" / "avx512" / "libsoft_corner.so") ==
+        fs::exists(fs::path(TALUS_PLUGINS) / "avx512" / "liboverlap_area.so"));
+  CHECK_THAT(installed.talus({"plugins", "--plugin-path", "build"}).out,
+             Contains("soft_corner 1.0 by somebody else"));
 
   const auto law = make<ContactModel>(*entry, {});
   CHECK(law->doubles_per_contact() == 0);
-  TwoSquares squares(0.1);
-  squares.evaluate(*law);
-  CHECK(squares.report.contact_count == 1);
-  CHECK(squares.report.penetration == Approx(0.1));
-  CHECK(squares.reports[0].py == Approx(3e6 * 0.01));
-  CHECK(squares.fy[4] == Approx(3e4));          // the lowest corner of b goes up
-  CHECK(squares.fy[2] == Approx(-3e4 * 0.25));  // the ends of a's top side bear it, the nearer one more
-  CHECK(squares.fy[3] == Approx(-3e4 * 0.75));
+  const testing::Outcome outcome = pushed(*law, 0.1);
+  CHECK(outcome.report.contact_count == 1);
+  CHECK(outcome.report.penetration == Approx(0.1));
+  CHECK(outcome.contacts[0].py == Approx(3e6 * 0.01));
+  CHECK(outcome.loads[4].y == Approx(3e4));          // the lowest corner of b goes up
+  CHECK(outcome.loads[2].y == Approx(-3e4 * 0.25));  // the ends of a's top side bear it, the nearer one more
+  CHECK(outcome.loads[3].y == Approx(-3e4 * 0.75));
+  CHECK(std::abs(outcome.net.x) < 1e-8);
+  CHECK(std::abs(outcome.net.y) < 1e-8);
+  CHECK(std::abs(outcome.net_moment) < 1e-8);
+  CHECK((pushed(*law, 0.1 + 1e-6).report.stored - pushed(*law, 0.1 - 1e-6).report.stored) / 2e-6 ==
+        Approx(3e4));
+}
 
-  double sum_x = 0, sum_y = 0, moment = 0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const double px = squares.corners[i].x + (i < 4 ? 0 : squares.pair.offset_x);
-    const double py = squares.corners[i].y + (i < 4 ? 0 : squares.pair.offset_y);
-    sum_x += squares.fx[i];
-    sum_y += squares.fy[i];
-    moment += px * squares.fy[i] - py * squares.fx[i];
+TEST_CASE("A plugin of another compiler, level and machine flag gives the same bits", "[plugin]") {
+  const Installation installed;
+  const std::string built_in = state_with(installed, "");
+  struct Build {
+    const char *compiler, *flags, *folder;
+  };
+  for (const Build& build : {Build{"clang++", "-O0", "clang"}, Build{"c++", "-O1 -march=native", "native"}}) {
+    if (!has_compiler(build.compiler)) {
+      WARN(build.compiler << " is not installed: a plugin built by it is not tested");
+      continue;
+    }
+    INFO(build.compiler << ' ' << build.flags);
+    build_plugin(build.compiler, build.flags, installed.prefix() / "include", TALUS_LAW_SOURCE,
+                 installed.work() / build.folder / "liboverlap_area.so");
+    CHECK(state_with(installed, build.folder) == built_in);
   }
-  CHECK(std::abs(sum_x) < 1e-8);
-  CHECK(std::abs(sum_y) < 1e-8);
-  CHECK(std::abs(moment) < 1e-8);
+}
 
-  TwoSquares deeper(0.1 + 1e-6), shallower(0.1 - 1e-6);
-  deeper.evaluate(*law);
-  shallower.evaluate(*law);
-  CHECK((deeper.report.stored - shallower.report.stored) / 2e-6 == Approx(3e4));
-  fs::remove_all(build);  // the library stays mapped
+TEST_CASE("An installed program is whole wherever its prefix is moved", "[plugin]") {
+  const Installation installed;
+  const fs::path moved = installed.work() / "elsewhere";
+  fs::rename(installed.prefix(), moved);
+  const Call run = call_program(moved / "bin" / "talus", installed.work(), {"run", "scenes/collision.json"});
+  CHECK(run.code == 0);
+  CHECK_THAT(run.err, Contains("there is no scenes/collision.json here: taking " +
+                               (moved / "share/talus/scenes/collision.json").string()));
+  CHECK(fs::exists(installed.work() / "out" / "collision" / "run.json"));
+  const Call missing =
+      call_program(moved / "bin" / "talus", installed.work(), {"run", "scenes/nowhere.json"});
+  CHECK(missing.code == 5);
+  const Call plugins = call_program(moved / "bin" / "talus", installed.work(), {"plugins"});
+  CHECK_THAT(plugins.out,
+             Contains((moved / "lib/talus/plugins/liboverlap_area.so").string()) && !Contains("refused"));
 }

@@ -27,13 +27,18 @@ void require_refused(const std::string& stem, const std::string& found, const st
 }  // namespace
 
 TEST_CASE("A library of another ABI is refused before anything else is read", "[plugin]") {
-  require_refused("wrong_abi", "found ABI 44", "wanted ABI 3", "rebuild it against the headers of talus 0.1");
+  require_refused("wrong_abi", "found ABI 45", "wanted ABI 4", "rebuild it against the headers of talus 0.1");
 }
 
 TEST_CASE("A library with a structure of another size is refused", "[plugin]") {
   const std::size_t size = sizeof(ContactBatch);
   require_refused("wrong_size", "found ContactBatch of " + std::to_string(size + 8) + " bytes",
                   "wanted " + std::to_string(size), "rebuild it against the headers of talus 0.1");
+}
+
+TEST_CASE("A library for another machine is refused before any of its code runs", "[plugin]") {
+  require_refused("lacking_instructions", "found code for instructions that this machine lacks",
+                  "wanted a library that runs here", "rebuild it without -march=native");
 }
 
 TEST_CASE("A library in other units is refused", "[plugin]") {

@@ -2,6 +2,7 @@
 
 #include <talus/contact_model.hpp>
 #include <talus/cover_builder.hpp>
+#include <talus/instructions.hpp>
 #include <talus/material.hpp>
 #include <talus/parameter.hpp>
 
@@ -15,11 +16,21 @@ namespace talus {
 inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
 
 /// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
-inline constexpr std::uint32_t abi_number = 3;
+inline constexpr std::uint32_t abi_number = 4;
 
 inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
 
 enum class ComponentKind : std::uint32_t { contact_model, material, cover_builder };
+
+/// What a component claims beyond what is due of all of its kind, as a sum. `talus check-plugin` holds it to
+/// its claims; what it does not claim is reported as such.
+namespace trait {
+/// Contact law: without friction and damping its forces are −∂stored/∂q of the bodies' places. Material: its
+/// stress is ∂energy/∂F, without viscosity.
+inline constexpr std::uint32_t has_potential = 1;
+/// Contact law: bodies may pull at each other even where cohesion and tensile strength are zero.
+inline constexpr std::uint32_t pulls = 2;
+}  // namespace trait
 
 struct Component {
   ComponentKind kind;
@@ -34,10 +45,12 @@ struct Component {
   /// (zero-terminated, at most error_size bytes). Never throws.
   void* (*create)(const double* values, char* error, std::size_t error_size) noexcept;
   void (*destroy)(void* object) noexcept;
+
+  std::uint32_t traits = 0;  ///< sum of what it claims, see `trait`
 };
 
 /// The one thing a plugin exports: `extern "C" const talus::Library talus_library`, constant-initialised, so
-/// that it can be read before any code of the plugin runs. The first three members never move.
+/// that it can be read from the file before any code of the plugin runs. The first three members never move.
 struct Library {
   std::uint32_t magic = library_magic;
   std::uint32_t abi = abi_number;
@@ -51,6 +64,7 @@ struct Library {
   std::uint32_t body_shape_size = sizeof(BodyShape);
   std::uint32_t boundaries_size = sizeof(Boundaries);
   std::uint32_t boundary_corner_size = sizeof(BoundaryCorner);
+  std::uint64_t instructions = instructions_in_use();  ///< bits of InstructionSet that its code may use
   const char* units = unit_system;
   const char* name = nullptr;
   const char* version = nullptr;
@@ -90,7 +104,8 @@ struct ParameterTable {
 
 template <class Interface, class Model>
 constexpr Component component(ComponentKind kind, const char* name, const char* sentence,
-                              ParameterTable parameters, ParameterTable interface_parameters) {
+                              ParameterTable parameters, ParameterTable interface_parameters,
+                              std::uint32_t traits) {
   return {kind,
           name,
           sentence,
@@ -99,26 +114,28 @@ constexpr Component component(ComponentKind kind, const char* name, const char* 
           interface_parameters.first,
           interface_parameters.size,
           create_component<Interface, Model>,
-          destroy_component<Interface>};
+          destroy_component<Interface>,
+          traits};
 }
 
 /// Entries of a library's list of components; `Model` is made from its parameter values, `Model(const
-/// double*)`.
+/// double*)`. `traits` is a sum of constants of `trait`.
 template <class Model>
 constexpr Component contact_model(const char* name, const char* sentence, ParameterTable parameters,
-                                  ParameterTable interface_parameters) {
+                                  ParameterTable interface_parameters, std::uint32_t traits = 0) {
   return component<ContactModel, Model>(ComponentKind::contact_model, name, sentence, parameters,
-                                        interface_parameters);
+                                        interface_parameters, traits);
 }
 
 template <class Model>
-constexpr Component material(const char* name, const char* sentence, ParameterTable parameters) {
-  return component<Material, Model>(ComponentKind::material, name, sentence, parameters, {});
+constexpr Component material(const char* name, const char* sentence, ParameterTable parameters,
+                             std::uint32_t traits = 0) {
+  return component<Material, Model>(ComponentKind::material, name, sentence, parameters, {}, traits);
 }
 
 template <class Model>
 constexpr Component cover_builder(const char* name, const char* sentence, ParameterTable parameters) {
-  return component<CoverBuilder, Model>(ComponentKind::cover_builder, name, sentence, parameters, {});
+  return component<CoverBuilder, Model>(ComponentKind::cover_builder, name, sentence, parameters, {}, 0);
 }
 
 template <std::size_t count>

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "conformance/held_body.hpp"
+#include "geometry/vanishing_depth.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace talus::conformance {
+
+/// The arrays of all bodies, as the host keeps them.
+struct BoundaryArrays {
+  std::vector<BoundaryCorner> corners;
+  std::vector<double> clear_depth;
+  std::vector<std::uint32_t> piece_start{0}, body_piece{0}, corner_body;
+  std::vector<std::uint8_t> is_strip;
+  std::vector<Vec2> reference;
+
+  explicit BoundaryArrays(const std::vector<HeldBody>& bodies) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) add(bodies[i], i);
+  }
+
+  void add(const HeldBody& body, std::uint32_t number) {
+    for (const ConvexPiece& piece : body.pieces) {
+      for (const PieceCorner& corner : piece) {
+        const Vec2 u = displacement(body.motion, corner.at), v = velocity(body.motion, corner.at);
+        corners.push_back(
+            {corner.at.x + u.x, corner.at.y + u.y, 0, 0, v.x, v.y, 0, corner.surface, corner.cut});
+        reference.push_back(corner.at), corner_body.push_back(number);
+      }
+      measure_sides(piece_start.back());
+      const std::size_t begin = piece_start.back();
+      clear_depth.push_back(vanishing_depth(&corners[begin], corners.size() - begin));
+      piece_start.push_back(static_cast<std::uint32_t>(corners.size()));
+      is_strip.push_back(body.strips ? 1 : 0);
+    }
+    body_piece.push_back(static_cast<std::uint32_t>(piece_start.size() - 1));
+  }
+
+  void measure_sides(std::size_t begin) {
+    for (std::size_t i = begin; i < corners.size(); ++i) {
+      BoundaryCorner& corner = corners[i];
+      const BoundaryCorner& next = corners[i + 1 == corners.size() ? begin : i + 1];
+      const double dx = next.x - corner.x, dy = next.y - corner.y;
+      corner.length = std::sqrt(dx * dx + dy * dy);
+      corner.tangent_x = corner.length > 0 ? dx / corner.length : 0;
+      corner.tangent_y = corner.length > 0 ? dy / corner.length : 0;
+    }
+  }
+
+  /// As BodyPair::plain_corners wants it, for one body.
+  std::uint32_t plain_corners(std::uint32_t body) const {
+    if (body_piece[body + 1] != body_piece[body] + 1) return 0;
+    const std::uint32_t begin = piece_start[body_piece[body]], end = piece_start[body_piece[body] + 1];
+    for (std::uint32_t c = begin; c < end; ++c) {
+      if (corners[c].surface != corners[begin].surface || corners[c].surface == internal_side) return 0;
+    }
+    return end - begin;
+  }
+
+  Boundaries view() const {
+    return {corners.data(), piece_start.data(), is_strip.data(), clear_depth.data()};
+  }
+};
+
+}  // namespace talus::conformance

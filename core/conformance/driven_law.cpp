@@ -1,0 +1,213 @@
+#include "conformance/driven_law.hpp"
+
+#include "conformance/boundary_arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace talus::conformance {
+namespace {
+
+constexpr double nothing_kept = std::numeric_limits<double>::quiet_NaN();
+
+template <class T>
+std::span<const T> span_of(const std::vector<T>& values) {
+  return values;
+}
+
+}  // namespace
+
+double Evaluation::size() const {
+  double sum = 0;
+  for (const CornerLoad& load : corners) sum += std::hypot(load.force.x, load.force.y);
+  return sum;
+}
+
+Vec2 Evaluation::net_force() const {
+  Vec2 sum;
+  for (const CornerLoad& load : corners) sum.x += load.force.x, sum.y += load.force.y;
+  return sum;
+}
+
+double Evaluation::net_moment() const {
+  double sum = 0;
+  const Vec2 about = corners.empty() ? Vec2{} : corners[0].at;
+  for (const CornerLoad& load : corners) {
+    sum += (load.at.x - about.x) * load.force.y - (load.at.y - about.y) * load.force.x;
+  }
+  return sum;
+}
+
+Vec2 Evaluation::on(std::uint32_t body) const {
+  return forces[body].force;
+}
+
+DrivenLaw::DrivenLaw(const RegisteredComponent& component, const Values& interface, const Values& parameters)
+    : component_(&component),
+      law_(make<ContactModel>(
+          component,
+          in_order({component.component->parameters, component.component->parameter_count}, parameters))) {
+  set_interfaces({interface}, [](std::uint32_t, std::uint32_t) { return 0U; });
+}
+
+std::vector<double> DrivenLaw::prepared(const Values& interface) const {
+  std::vector<double> values = in_order(
+      {component_->component->interface_parameters, component_->component->interface_parameter_count},
+      interface);
+  law_->prepare_interface(values.data());
+  return values;
+}
+
+void DrivenLaw::set_interfaces(const std::vector<Values>& rows,
+                               const std::function<std::uint32_t(std::uint32_t, std::uint32_t)>& row) {
+  rows_.clear();
+  for (const Values& values : rows) rows_.push_back(prepared(values));
+  row_ = row;
+}
+
+Evaluation DrivenLaw::look(double dt) {
+  const History before = history;
+  Evaluation result = evaluate(dt);
+  history = before;
+  return result;
+}
+
+Evaluation DrivenLaw::step(double dt) {
+  for (HeldBody& body : bodies) {
+    BodyMotion& m = body.motion;
+    m.u.x += dt * m.velocity.x, m.u.y += dt * m.velocity.y;
+    m.h.xx += dt * m.rate.xx, m.h.xy += dt * m.rate.xy, m.h.yx += dt * m.rate.yx, m.h.yy += dt * m.rate.yy;
+  }
+  return evaluate(dt);
+}
+
+GivenBatch DrivenLaw::given(double dt) {
+  if (met.empty()) {
+    for (std::uint32_t a = 0; a < bodies.size(); ++a) {
+      for (std::uint32_t b = a + 1; b < bodies.size(); ++b) met.emplace_back(a, b);
+    }
+  }
+  const BoundaryArrays arrays(bodies);
+  GivenBatch batch;
+  batch.doubles_per_contact = law_->doubles_per_contact();
+  batch.dt = dt, batch.hold_stick = hold_stick, batch.bonds_form = bonds_form;
+  batch.corners = Guarded(span_of(arrays.corners));
+  batch.piece_start = Guarded(span_of(arrays.piece_start));
+  batch.is_strip = Guarded(span_of(arrays.is_strip));
+  batch.clear_depth = Guarded(span_of(arrays.clear_depth));
+  for (const BoundaryCorner& corner : arrays.corners) {
+    if (corner.surface != internal_side)
+      batch.surface_count = std::max(batch.surface_count, corner.surface + 1);
+  }
+  batch.row.resize(std::size_t{batch.surface_count} * batch.surface_count, 0);
+  for (std::uint32_t i = 0; i < batch.surface_count; ++i) {
+    for (std::uint32_t j = 0; j < batch.surface_count; ++j)
+      batch.row[i * batch.surface_count + j] = row_(i, j);
+  }
+  std::vector<double> values, kept;
+  for (const auto& one : rows_) values.insert(values.end(), one.begin(), one.end());
+  batch.values = Guarded(span_of(values));
+  batch.parameter_count = component_->component->interface_parameter_count;
+
+  std::vector<BodyPair> pairs;
+  std::vector<PiecePair> piece_pairs;
+  for (const auto& [a, b] : met) {
+    const HeldBody &one = bodies[a], &other = bodies[b];
+    const PairState& state = history[{a, b}];
+    BodyPair pair{};
+    pair.a = a, pair.b = b;
+    pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs.size());
+    for (std::uint32_t p = arrays.body_piece[a]; p < arrays.body_piece[a + 1]; ++p) {
+      for (std::uint32_t q = arrays.body_piece[b]; q < arrays.body_piece[b + 1]; ++q) {
+        piece_pairs.push_back({p, q, batch.load_count});
+        batch.load_count += batch.corners_of(piece_pairs.back());
+      }
+    }
+    pair.piece_pair_end = static_cast<std::uint32_t>(piece_pairs.size());
+    pair.offset_x = other.centre.x - one.centre.x, pair.offset_y = other.centre.y - one.centre.y;
+    pair.master_share = master_share;
+    const std::uint32_t corners[] = {arrays.plain_corners(a), arrays.plain_corners(b)};
+    if (plain && corners[0] > 0 && corners[1] > 0) pair.plain_corners = std::max(corners[0], corners[1]);
+    pair.reduced_mass = one.mass * other.mass / (one.mass + other.mass);
+    pair.slot_start = batch.slot_count, pair.slot_capacity = state.capacity;
+    pair.contact_count = state.contacts;
+    batch.slot_count += state.capacity;
+    kept.resize(std::size_t{batch.slot_count} * batch.doubles_per_contact, nothing_kept);
+    std::copy(state.history.begin(), state.history.end(),
+              kept.begin() + std::size_t{pair.slot_start} * batch.doubles_per_contact);
+    pairs.push_back(pair);
+  }
+  batch.pairs = Guarded(span_of(pairs));
+  batch.piece_pairs = Guarded(span_of(piece_pairs));
+  batch.history = Guarded(span_of(kept));
+  batch.active.resize(pairs.size(), 0);
+  std::iota(batch.active.begin(), batch.active.end(), 0U);
+  return batch;
+}
+
+Evaluation DrivenLaw::evaluate(double dt) {
+  for (int asked = 0; asked < 4; ++asked) {
+    const GivenBatch batch = given(dt);
+    TakenLoads taken(batch, 0xFF);
+    law_->evaluate(batch.view(), taken.view());
+
+    bool short_of_room = false;
+    for (std::size_t i = 0; i < batch.pairs.size(); ++i) {
+      PairState& state = history[met[i]];
+      const std::uint32_t count = taken.pairs[i].contact_count;
+      if (count <= state.capacity) continue;
+      if (count > 100000) throw std::runtime_error(fmt::format("a pair reports {} contacts", count));
+      state.capacity = count;
+      short_of_room = true;
+    }
+    if (short_of_room) continue;
+
+    Evaluation result;
+    result.forces.resize(bodies.size());
+    result.pairs.assign(taken.pairs.begin(), taken.pairs.end());
+    const BoundaryArrays arrays(bodies);
+    const std::uint32_t doubles = batch.doubles_per_contact;
+    for (std::size_t i = 0; i < batch.pairs.size(); ++i) {
+      const BodyPair& pair = batch.pairs[i];
+      PairState& state = history[met[i]];
+      state.contacts = taken.pairs[i].contact_count;
+      const double* begin = taken.history.data() + std::size_t{pair.slot_start} * doubles;
+      state.history.assign(begin, begin + std::size_t{state.contacts} * doubles);
+      result.history.insert(result.history.end(), state.history.begin(), state.history.end());
+      for (std::uint32_t c = 0; c < state.contacts; ++c) {
+        result.contacts.push_back(taken.reports[pair.slot_start + c]);
+      }
+      if (state.contacts == 0) continue;  // then a law need not write its loads
+      for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
+        std::uint32_t load = batch.piece_pairs[p].load_start;
+        for (const std::uint32_t piece : {batch.piece_pairs[p].a, batch.piece_pairs[p].b}) {
+          for (std::uint32_t c = arrays.piece_start[piece]; c < arrays.piece_start[piece + 1]; ++c, ++load) {
+            const Vec2 force{taken.fx[load], taken.fy[load]};
+            if (force.x == 0 && force.y == 0) continue;
+            const std::uint32_t body = arrays.corner_body[c];
+            const Vec2 centre = bodies[body].centre;
+            const std::uint32_t before =
+                c == arrays.piece_start[piece] ? arrays.piece_start[piece + 1] - 1 : c - 1;
+            const bool carries =
+                arrays.corners[c].surface != internal_side || arrays.corners[before].surface != internal_side;
+            result.corners.push_back({body,
+                                      {centre.x + arrays.corners[c].x, centre.y + arrays.corners[c].y},
+                                      arrays.reference[c],
+                                      force,
+                                      carries});
+            result.forces[body].add(arrays.reference[c], force);
+          }
+        }
+      }
+    }
+    return result;
+  }
+  throw std::runtime_error("the law asks for room for more contacts again and again");
+}
+
+}  // namespace talus::conformance

@@ -1,0 +1,218 @@
+#include "conformance/material_laws.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::conformance {
+namespace {
+
+/// Elastic parts of the sample soils and rocks end at strains of some 1e-3; beyond they yield.
+constexpr double strains[] = {1e-5, 1e-3, 0.02};
+
+/// One round of strain under a turn of as much, in `steps`: smooth, so that an error of the step shows its
+/// order. The chord of a step that turns by θ is worth θ² times the stress, so the turn goes with the strain.
+std::vector<Tensor> round_trip(double strain, int steps) {
+  std::vector<Tensor> path;
+  for (int i = 1; i <= steps; ++i) {
+    const double t = 2 * 3.14159265358979323846 * i / steps, swing = strain * (1 - std::cos(t));
+    const Tensor stretch{1 + strain * std::sin(t), swing / 2, 0, 1 - swing / 3};
+    path.push_back(product(rotation(strain * t), stretch));
+  }
+  return path;
+}
+
+struct Account {
+  double missing, turned_over, least_dissipated;
+};
+
+Account account_of(const Material& law, const std::vector<Tensor>& path) {
+  DrivenElement element(law);
+  Account account{0, 0, 0};
+  Response last{};
+  double work = 0;
+  for (const Tensor& f : path) {
+    last = element.to(f);
+    account.turned_over += std::abs(element.work() - work);
+    work = element.work();
+    account.least_dissipated = std::min(account.least_dissipated, last.dissipated);
+    const double missing = std::abs(work - last.energy - element.dissipated());
+    if (!(missing <= account.missing)) account.missing = missing;  // nan stays
+    if (std::isnan(missing)) return account;
+  }
+  return account;
+}
+
+double largest_part(const Tensor& t) {
+  double largest = 0;
+  for (const double part : t) {
+    if (std::isnan(part)) return part;
+    largest = std::max(largest, std::abs(part));
+  }
+  return largest;
+}
+
+Tensor minus(const Tensor& p, const Tensor& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2], p[3] - q[3]};
+}
+
+/// Largest eigenvalue of a symmetric positive matrix, by powers.
+double largest_eigenvalue(const double (&d)[9]) {
+  double v[3] = {1, 0.7, 0.4}, size = 0;
+  for (int round = 0; round < 200; ++round) {
+    double next[3];
+    for (int i = 0; i < 3; ++i) next[i] = d[3 * i] * v[0] + d[3 * i + 1] * v[1] + d[3 * i + 2] * v[2];
+    size = std::sqrt(next[0] * next[0] + next[1] * next[1] + next[2] * next[2]);
+    for (int i = 0; i < 3; ++i) v[i] = next[i] / size;
+  }
+  return size;
+}
+
+/// Stress xx, yy, xy per strain xx, yy, 2·xy from the undeformed state, Pa.
+void measure_tangent(const Material& law, double (&d)[9]) {
+  constexpr double step = 1e-7;
+  const Tensor strained[] = {{1 + step, 0, 0, 1}, {1, 0, 0, 1 + step}, {1, step / 2, step / 2, 1}};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Tensor p = DrivenElement(law).to(strained[j], 0).stress;
+    d[j] = p[0] / step, d[3 + j] = p[3] / step, d[6 + j] = (p[1] + p[2]) / (2 * step);
+  }
+}
+
+}  // namespace
+
+Made<Material> sample_material(const Subject& subject, const Values& given) {
+  const Component& component = *subject.component->component;
+  return make<Material>(*subject.component,
+                        in_order({component.parameters, component.parameter_count}, given));
+}
+
+double modulus_of(const Material& law) {
+  constexpr double step = 1e-7;
+  return std::abs(DrivenElement(law).to({1 + step, 0, 0, 1}, 0).stress[0]) / step;
+}
+
+void check_power(const Subject& subject, Trial& trial) {
+  const auto law = sample_material(subject);
+  for (const double strain : strains) {
+    const Account coarse = account_of(*law, round_trip(strain, 400)),
+                  fine = account_of(*law, round_trip(strain, 800));
+    trial.feed(
+        fmt::format("one round of strains of {:g} under a turn of as much, in 400 steps and in 800", strain));
+    // What steps miss of the work gets smaller with them, at least as they do.
+    const double allowed = std::max(0.6 * coarse.missing, 1e-8 * coarse.turned_over);
+    trial.at_most(coarse.missing, 1e-2 * coarse.turned_over,
+                  "largest |work − energy − dissipated| [J/m³] in 400 steps");
+    trial.at_most(fine.missing, allowed, "largest |work − energy − dissipated| [J/m³] in 800 steps");
+    trial.at_most(-coarse.least_dissipated, 1e-12 * coarse.turned_over,
+                  "energy dissipated below zero [J/m³]");
+  }
+}
+
+void check_objectivity(const Subject& subject, Trial& trial) {
+  const auto law = sample_material(subject);
+  const double modulus = modulus_of(*law);
+  {
+    trial.feed("a whole turn without strain, in 126 steps");
+    DrivenElement element(*law);
+    for (int i = 1; i <= 126; ++i) {
+      const Response response = element.to(rotation(0.05 * i));
+      trial.at_most(largest_part(response.stress), 1e-11 * modulus, "stress [Pa]");
+      trial.at_most(std::abs(response.energy), 1e-14 * modulus, "energy [J/m³]");
+    }
+  }
+  const std::vector<Tensor> path = lively_path(0.02, 200);
+  const Tensor q = rotation(1.234);
+  DrivenElement element(*law), turned(*law);
+  turned.to(q);
+  trial.feed("200 steps of strains of 0.02, and the same seen from a direction turned by 1.234 rad");
+  for (const Tensor& f : path) {
+    const Response one = element.to(f), two = turned.to(product(q, f));
+    trial.at_most(largest_part(minus(two.stress, product(q, one.stress))), 1e-11 * modulus,
+                  "stress [Pa] that is not the turned one");
+    trial.at_most(std::abs(two.energy - one.energy), 1e-11 * modulus, "difference of energy [J/m³]");
+    const Tensor kirchhoff = product(one.stress, transposed(f));
+    trial.at_most(std::abs(kirchhoff[1] - kirchhoff[2]), 1e-11 * modulus,
+                  "moment, P Fᵀ less its transpose [Pa]");
+  }
+  trial.feed("a strained element that spins by 0.05 rad per step, 126 steps");
+  const Tensor deformed{1.002, 0.001, 0, 0.999};
+  DrivenElement spinning(*law);
+  const Tensor still = spinning.along(deformed, 20).stress;
+  for (int i = 1; i <= 126; ++i) {
+    const Tensor r = rotation(0.05 * i);
+    trial.at_most(largest_part(minus(spinning.to(product(r, deformed)).stress, product(r, still))),
+                  1e-9 * modulus, "stress [Pa] that did not turn with the element");
+  }
+}
+
+void check_stress_potential(const Subject& subject, Trial& trial) {
+  if ((subject.component->component->traits & trait::has_potential) == 0) {
+    trial.not_claimed("trait::has_potential is not set");
+    return;
+  }
+  const auto law = sample_material(subject);
+  for (const double strain : strains) {
+    const double step = 1e-3 * strain;
+    for (const Tensor& f : lively_path(strain, 40, 0.1)) {
+      trial.feed(fmt::format("F = [{:.9g}, {:.9g}; {:.9g}, {:.9g}] from the undeformed state", f[0], f[1],
+                             f[2], f[3]));
+      const Tensor stress = DrivenElement(*law).to(f).stress;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto energy = [&](double change) {
+          Tensor moved = f;
+          moved[k] += change;
+          return DrivenElement(*law).to(moved).energy;
+        };
+        // Fourth order, so that the differences are good to 1e-7.
+        const double slope =
+            (8 * (energy(step) - energy(-step)) - (energy(2 * step) - energy(-2 * step))) / (12 * step);
+        trial.at_most(std::abs(stress[k] - slope), 1e-6 * size_of(stress),
+                      fmt::format("|P − dW/dF| of component {}, where P is {:.9g} Pa", k, stress[k]));
+      }
+    }
+  }
+}
+
+void check_tangent(const Subject& subject, Trial& trial) {
+  const auto law = sample_material(subject);
+  double declared[9], found[9];
+  law->stiffest_tangent(declared);
+  measure_tangent(*law, found);
+  const double stiffest = largest_eigenvalue(declared), measured = largest_eigenvalue(found);
+  trial.feed("strains of 1e-7 from the undeformed state");
+  trial.at_most(measured, 1.001 * stiffest, "measured stiffness of the fastest wave, ρ c² [Pa]");
+  trial.at_most(
+      stiffest, 100 * measured,
+      fmt::format("declared stiffness of the fastest wave, ρ c² [Pa], where {:.9g} is measured", measured));
+  for (int k : {1, 2, 5}) {
+    trial.at_most(std::abs(declared[k] - declared[k == 1   ? 3
+                                                  : k == 2 ? 6
+                                                           : 7]),
+                  1e-9 * stiffest, "declared tangent less its transpose [Pa]");
+  }
+  DrivenElement element(*law);
+  for (const Tensor& f : lively_path(0.02, 40, 0.05)) {
+    element.to(f);
+    for (std::size_t k = 0; k < 4; ++k) {
+      constexpr double step = 1e-6;
+      DrivenElement here = element, moved = element;
+      Tensor g = f;
+      g[k] += step;
+      const Tensor change = minus(moved.to(g, 0).stress, here.to(f, 0).stress);
+      trial.feed(fmt::format("F = [{:.9g}, {:.9g}; {:.9g}, {:.9g}], component {} more by 1e-6", f[0], f[1],
+                             f[2], f[3], k));
+      // Strains of 0.02 change what a tangent is measured in by a few per cent.
+      trial.at_most(size_of(change) / step, 1.2 * stiffest, "stress per strain [Pa]");
+    }
+  }
+  const auto viscous = sample_material(subject, {{"damping_time", 2e-4}});
+  trial.feed("a strain of 1e-7 within 1 ms and at rest, damping_time 2e-4 s where there is one");
+  const Tensor strained{1 + 1e-7, 0, 0, 1};
+  const double damped = DrivenElement(*viscous).to(strained, 1e-3).stress[0];
+  const double plain = DrivenElement(*viscous).to(strained, 0).stress[0];
+  trial.at_most((damped - plain) / plain * 1e-3, 1.001 * viscous->viscous_time() + 1e-12,
+                "measured viscous time [s]");
+}
+
+}  // namespace talus::conformance

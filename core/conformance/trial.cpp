@@ -1,0 +1,52 @@
+#include "conformance/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace talus::conformance {
+namespace {
+
+template <std::size_t size>
+void note(char (&to)[size], std::string_view words) {
+  const std::size_t length = std::min(words.size(), size - 1);
+  std::memcpy(to, words.data(), length);
+  to[length] = '\0';
+}
+
+}  // namespace
+
+void Trial::feed(std::string_view words) {
+  if (!failed()) note(notes_->fed, words);
+}
+
+void Trial::at_most(double value, double bound, std::string_view what) {
+  ++notes_->cases;
+  if (value <= bound || failed()) return;
+  due(false, fmt::format("{}: {:.9g}", what, value), fmt::format("at most {:.9g}", bound));
+}
+
+void Trial::due(bool holds, std::string_view found, std::string_view due) {
+  ++notes_->cases;
+  if (holds || failed()) return;
+  note(notes_->found, found);
+  note(notes_->due, due);
+  notes_->verdict = Verdict::failed;
+}
+
+void Trial::not_claimed(std::string_view why) {
+  note(notes_->found, why);
+  notes_->verdict = Verdict::not_claimed;
+}
+
+void Trial::remark(std::string_view words) {
+  if (!failed()) note(notes_->found, words);
+}
+
+void Trial::figure(std::string_view words) {
+  note(notes_->found, words);
+  notes_->verdict = Verdict::figure;
+}
+
+}  // namespace talus::conformance

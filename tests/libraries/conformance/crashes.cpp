@@ -1,0 +1,25 @@
+// Does not survive a coordinate that is no number.
+#include "area_law.hpp"
+
+namespace {
+
+using namespace spoilt;
+
+class Crashes final : public AreaLaw {
+ public:
+  using AreaLaw::AreaLaw;
+
+ private:
+  void begin(const ContactBatch& batch, const ContactLoads& /*loads*/) const override {
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const talus::PiecePair& pieces = batch.piece_pairs[batch.pairs[batch.active[k]].piece_pair_start];
+      if (std::isnan(batch.boundaries.corner[batch.boundaries.piece_start[pieces.b]].x)) __builtin_trap();
+    }
+  }
+};
+
+constexpr talus::Component components[] = {area_law<Crashes>("crashes")};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = spoilt::library(components);

@@ -1,0 +1,44 @@
+// Laws that load and run, and then do what no law may do with the loads.
+#include "descriptor.hpp"
+
+#include <limits>
+
+namespace {
+
+enum class Slip { nan_load, nan_report, past_the_end, one_sided, couple };
+
+/// Says of every pair that it touches, without a load but for one slip.
+template <Slip slip>
+class Misbehaving : public SilentLaw {
+ public:
+  using SilentLaw::SilentLaw;
+
+  void evaluate(const talus::ContactBatch& batch, const talus::ContactLoads& loads) const noexcept override {
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+      const talus::BodyPair& pair = batch.pairs[batch.active[k]];
+      talus::PairReport& report = loads.pairs[batch.active[k]];
+      report = {};
+      report.contact_count = 1;
+      const talus::PiecePair& pieces = batch.piece_pairs[pair.piece_pair_start];
+      const std::uint32_t* start = batch.boundaries.piece_start;
+      const std::uint32_t of_b = pieces.load_start + start[pieces.a + 1] - start[pieces.a];
+      const std::uint32_t end = of_b + start[pieces.b + 1] - start[pieces.b];
+      for (std::uint32_t load = pieces.load_start; load < end; ++load) loads.fx[load] = loads.fy[load] = 0;
+      if (slip == Slip::nan_load) loads.fy[of_b] = not_a_number;
+      if (slip == Slip::nan_report) report.stored = not_a_number;
+      if (slip == Slip::past_the_end) loads.fx[end] = 0;
+      if (slip == Slip::one_sided) loads.fy[of_b] = 1;
+      if (slip == Slip::couple) loads.fx[of_b] = 1, loads.fx[of_b + 2] = -1;
+    }
+  }
+};
+
+constexpr talus::Component components[] = {
+    law<Misbehaving<Slip::nan_load>>("nan_load"), law<Misbehaving<Slip::nan_report>>("nan_report"),
+    law<Misbehaving<Slip::past_the_end>>("past_the_end"), law<Misbehaving<Slip::one_sided>>("one_sided"),
+    law<Misbehaving<Slip::couple>>("couple")};
+
+}  // namespace
+
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 5);
