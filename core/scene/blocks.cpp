@@ -16,8 +16,6 @@
 namespace talus {
 namespace {
 
-constexpr double most_blocks = 1e6;  // some gigabytes as JSON and as bodies
-
 /// Keys of bodies that all blocks of a generator have in common.
 constexpr const char* shared_keys[] = {"material", "cover", "fixed",    "velocity",    "angular_velocity",
                                        "fix",      "drive", "priority", "self_contact"};
@@ -84,8 +82,8 @@ Json body_of(const Block& block, const std::string& name, const std::vector<std:
 
 class Expander {
  public:
-  Expander(Json& bodies, const std::filesystem::path& folder, Mistakes& mistakes)
-      : bodies_(bodies), folder_(folder), mistakes_(mistakes) {}
+  Expander(Json& bodies, const std::filesystem::path& folder, double most_blocks, Mistakes& mistakes)
+      : bodies_(bodies), folder_(folder), most_blocks_(most_blocks), mistakes_(mistakes) {}
 
   void take(const Json& written, const std::string& pointer) {
     const std::size_t mistakes_before = mistakes_.count();
@@ -131,11 +129,11 @@ class Expander {
   std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
                          double smallest_share) {
     const double blocks = estimate(joints, box_around(domain.loops[0]));
-    if (blocks > most_blocks) {
+    if (blocks > most_blocks_) {
       mistakes_.add(section.pointer(),
                     fmt::format("this would make about {:.2g} blocks: expected {:.0e} at most; are the "
                                 "spacings in metres?",
-                                blocks, most_blocks));
+                                blocks, most_blocks_));
       return {};
     }
     try {
@@ -161,6 +159,7 @@ class Expander {
 
   Json& bodies_;
   const std::filesystem::path& folder_;
+  double most_blocks_;
   Mistakes& mistakes_;
   std::map<std::string, std::string> names_;
 };
@@ -184,7 +183,8 @@ std::string Expansion::origin_of(const std::string& pointer) const {
   return pointer;
 }
 
-Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, Mistakes& mistakes) {
+Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, double most_blocks,
+                        Mistakes& mistakes) {
   const auto written = scene.find("blocks");
   if (written == scene.end()) return {};
   const Json generators = std::move(*written);
@@ -197,7 +197,7 @@ Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, Mistak
   if (!scene.contains("bodies") && !generators.empty()) scene["bodies"] = Json::array();
   Json none = Json::array();
   Json& bodies = scene.contains("bodies") && scene["bodies"].is_array() ? scene["bodies"] : none;
-  Expander expander(bodies, folder, mistakes);
+  Expander expander(bodies, folder, most_blocks, mistakes);
   for (std::size_t i = 0; i < generators.size(); ++i) expander.take(generators[i], below("/blocks", i));
   return std::move(expander.result);
 }

@@ -23,7 +23,9 @@ struct Expansion {
 };
 
 /// Replaces the generators in "blocks" by plain bodies. What bodies share (material, cover, ...) is copied as
-/// it is written and checked with the bodies; mistakes in the rest are noted.
-Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, Mistakes& mistakes);
+/// it is written and checked with the bodies; mistakes in the rest are noted, as are generators that would
+/// make more than `most_blocks`.
+Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, double most_blocks,
+                        Mistakes& mistakes);
 
 }  // namespace talus

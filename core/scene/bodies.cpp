@@ -16,7 +16,7 @@ namespace {
 
 Choice read_cover(Reading& reading, Section& section, OrderedJson& resolved) {
   const std::size_t mistakes_before = reading.mistakes.count();
-  const std::string model = section.text("model", "the name of a cover builder", default_cover);
+  const std::string model = section.text("model", "the name of a cover", default_cover);
   Choice cover;
   if (reading.mistakes.count() == mistakes_before) {
     cover = read_choice(reading, section, ComponentKind::cover_builder, model);

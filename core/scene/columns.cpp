@@ -161,8 +161,11 @@ class ColumnReader {
 
 std::optional<Columns> read_columns(const fs::path& file, const std::string& column, std::string& problem) {
   const std::optional<std::string> text = text_of(file, problem);
-  if (!text) return std::nullopt;
-  std::string_view rest = *text;
+  return text ? read_columns_text(*text, file.string(), column, problem) : std::nullopt;
+}
+
+std::optional<Columns> read_columns_text(std::string_view rest, const std::string& name,
+                                         const std::string& column, std::string& problem) {
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
   ColumnReader reader(column);
   for (std::size_t number = 1; !rest.empty(); ++number) {
@@ -170,13 +173,13 @@ std::optional<Columns> read_columns(const fs::path& file, const std::string& col
     const std::string_view line = trimmed(rest.substr(0, end));
     const std::string wrong = line.empty() ? std::string() : reader.take(line);
     if (!wrong.empty()) {
-      problem = fmt::format("{}:{}: {}", file.string(), number, wrong);
+      problem = fmt::format("{}:{}: {}", name, number, wrong);
       return std::nullopt;
     }
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   if (const std::string wrong = reader.finish(); !wrong.empty()) {
-    problem = fmt::format("{}: {}", file.string(), wrong);
+    problem = fmt::format("{}: {}", name, wrong);
     return std::nullopt;
   }
   return std::move(reader).columns();

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace talus {
@@ -19,5 +20,9 @@ inline constexpr std::size_t most_points = 1'000'000;  ///< of one file
 /// wrong.
 std::optional<Columns> read_columns(const std::filesystem::path& file, const std::string& column,
                                     std::string& problem);
+
+/// The same from text; `name` stands for the file in messages.
+std::optional<Columns> read_columns_text(std::string_view text, const std::string& name,
+                                         const std::string& column, std::string& problem);
 
 }  // namespace talus

@@ -11,7 +11,8 @@ namespace talus {
 
 const RegisteredComponent* find_component(Reading& reading, ComponentKind kind, const std::string& name,
                                           const std::string& pointer) {
-  if (const RegisteredComponent* found = reading.registry.find(kind, name)) return found;
+  if (const RegisteredComponent* found = demand(reading.registry, kind, name)) return found;
+  load_offered(reading.registry);
   const std::vector<std::string> names = reading.registry.names(kind);
   std::string message = fmt::format("there is no {} \"{}\";{} installed: {}", kind_in_words(kind), name,
                                     did_you_mean(name, names), listed(names));

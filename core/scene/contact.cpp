@@ -24,16 +24,17 @@ void read_other_laws(Reading& reading, Section& contact, ContactSection& result)
   for (const std::string& name : contact.keys()) {
     if (contact.knows(name)) continue;
     contact.child(name);
-    if (const RegisteredComponent* law = reading.registry.find(ComponentKind::contact_model, name)) {
+    if (const RegisteredComponent* law = demand(reading.registry, ComponentKind::contact_model, name)) {
       read_law(contact, *law->component);
       result.other_laws.push_back(law->component);
       continue;
     }
+    load_offered(reading.registry);
     std::vector<std::string> allowed = reading.registry.names(ComponentKind::contact_model);
     allowed.insert(allowed.begin(), {"model", "roles"});
     reading.mistakes.add_at_key(
         contact.pointer_to(name),
-        fmt::format("unknown key, and no contact model of that name is installed;{} allowed here: {}",
+        fmt::format("unknown key, and no contact law of that name is installed;{} allowed here: {}",
                     did_you_mean(name, allowed), listed(allowed)));
   }
 }
@@ -46,7 +47,7 @@ ContactSection read_contact(Reading& reading, Section& root) {
   if (written == nullptr) return result;
   result.given = true;
   Section contact(written, root.pointer_to("contact"), reading.mistakes);
-  const std::string model = contact.text("model", "the name of a contact model");
+  const std::string model = contact.text("model", "the name of a contact law");
   reading.scene.roles_by_priority = contact.value(table::of(table::contact, "roles")) == 1;
   if (!model.empty()) {
     result.law.component =

@@ -81,10 +81,15 @@ std::optional<Side> read_side(const Reading& reading, const Names& names, const 
     return Side{Side::Kind::surface_of_body, name.substr(slash + 1), name.substr(0, slash)};
   }
   if (!reading.unmade.empty()) return std::nullopt;  // it may be one of blocks that were not made
+  if (reading.mistakes.many()) {
+    reading.mistakes.add(pointer, fmt::format("there is no material or surface \"{}\"", clipped(name)));
+    return std::nullopt;
+  }
   std::vector<std::string> candidates = names.all;
   if (slash != std::string::npos) candidates.assign(names.of_bodies.begin(), names.of_bodies.end());
-  reading.mistakes.add(pointer, fmt::format("there is no material or surface \"{}\";{} known: {}", name,
-                                            did_you_mean(name, candidates), listed(candidates)));
+  reading.mistakes.add(pointer,
+                       fmt::format("there is no material or surface \"{}\";{} known: {}", clipped(name),
+                                   did_you_mean(name, candidates), listed(candidates)));
   return std::nullopt;
 }
 

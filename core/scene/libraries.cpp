@@ -15,9 +15,10 @@ fs::path real_path(const fs::path& file) {
   return found.empty() ? file : found;
 }
 
-bool is_loaded(const Registry& registry, const fs::path& file) {
-  return std::ranges::any_of(registry.components(),
-                             [&](const RegisteredComponent& entry) { return real_path(entry.file) == file; });
+/// Or offered, so that it is loaded where the scene names what it brings.
+bool is_at_hand(const Registry& registry, const fs::path& file) {
+  const auto is_it = [&](const auto& entry) { return real_path(entry.file) == file; };
+  return std::ranges::any_of(registry.components(), is_it) || std::ranges::any_of(registry.offered, is_it);
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ void read_libraries(Reading& reading, Section& root, const fs::path& folder, boo
         }
         const fs::path file = real_path(fs::absolute(folder / value.get<std::string>()));
         resolved.push_back(file.string());  // the resolved scene may be read from another folder
-        if (is_loaded(reading.registry, file)) return;
+        if (is_at_hand(reading.registry, file)) return;
         if (allowed) {
           load_library(reading.registry, file);
         } else {

@@ -1,5 +1,6 @@
 #include "scene/mistakes.hpp"
 
+#include "scene/nearest.hpp"
 #include "scene/positions.hpp"
 
 #include <fmt/format.h>
@@ -52,16 +53,26 @@ std::string command_of(const Override& override_) {
   return fmt::format("--set {}={}", override_.pointer, override_.value);
 }
 
+void Mistakes::keep(Found found) {
+  constexpr std::size_t most_kept = 100'000, longest_message = 4000;
+  found.message = clipped(found.message, longest_message);
+  if (found_.size() < most_kept) {
+    found_.push_back(std::move(found));
+  } else {
+    ++untold_;
+  }
+}
+
 void Mistakes::add(std::string pointer, std::string message) {
-  found_.push_back({std::move(pointer), std::move(message), {}, false});
+  keep({std::move(pointer), std::move(message), {}, false});
 }
 
 void Mistakes::add_at_key(std::string pointer, std::string message) {
-  found_.push_back({std::move(pointer), std::move(message), {}, true});
+  keep({std::move(pointer), std::move(message), {}, true});
 }
 
 void Mistakes::add_to_command(std::string command, std::string pointer, std::string message) {
-  found_.push_back({std::move(pointer), std::move(message), std::move(command), false});
+  keep({std::move(pointer), std::move(message), std::move(command), false});
 }
 
 void Mistakes::move(const std::function<std::string(const std::string&)>& to) {
@@ -106,6 +117,12 @@ std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string
   std::stable_sort(placed.begin(), placed.end(), [](const Mistake& a, const Mistake& b) {
     return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
   });
+  const std::size_t more = untold_ + placed.size() - std::min(placed.size(), many_);
+  if (more > 0) {
+    placed.resize(many_);
+    placed.push_back({file, 0, 0, {}, fmt::format("and {} more mistakes", more)});
+  }
+  for (Mistake& mistake : placed) mistake.pointer = clipped(mistake.pointer, longest_pointer);
   return placed;
 }
 

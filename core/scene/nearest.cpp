@@ -1,7 +1,6 @@
 #include "scene/nearest.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -39,6 +38,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& nam
   std::string best;
   std::size_t best_distance = 0;
   for (const std::string& name : names) {
+    if (name.size() > 2 * word.size()) continue;  // more than half of its letters are missing
     const std::size_t distance = edit_distance(word, name);
     // More than half of the letters changed is another word.
     if (distance > std::max(word.size(), name.size()) / 2) continue;
@@ -55,12 +55,23 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return guess.empty() ? std::string() : fmt::format(" did you mean \"{}\"?", guess);
 }
 
+std::string clipped(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // within a character
+  return text.substr(0, end) + "...";
+}
+
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t readable = 60;
   if (names.empty()) return "(none)";
-  if (names.size() <= readable) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format("{}, and {} more", fmt::join(names.begin(), names.begin() + readable, ", "),
-                     names.size() - readable);
+  std::string all;
+  for (std::size_t i = 0; i < std::min(names.size(), readable); ++i) {
+    if (i > 0) all += ", ";
+    all += clipped(names[i]);
+  }
+  if (names.size() > readable) all += fmt::format(", and {} more", names.size() - readable);
+  return all;
 }
 
 }  // namespace talus

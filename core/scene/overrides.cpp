@@ -88,6 +88,29 @@ Json* step(Json& parent, const std::string& section, const std::string& part, bo
   return nullptr;
 }
 
+/// null: takes away what stands under a key, which is then as if it had been left out.
+bool leave_out(Json& scene, const std::vector<std::string>& keys, std::string& problem) {
+  std::string section;
+  Json* parent = &scene;
+  for (std::size_t i = 0; i + 1 < keys.size() && parent != nullptr; ++i) {
+    const bool in_list = parent->is_array();
+    if (parent->is_object() && !parent->contains(keys[i])) {
+      parent = nullptr;  // what is not there holds nothing
+    } else {
+      parent = step(*parent, section, keys[i], false, problem);
+      if (parent == nullptr) return false;
+    }
+    section += in_list ? "/*" : '/' + keys[i];
+  }
+  const std::string& key = keys.back();
+  if (parent != nullptr && parent->is_object() && parent->erase(key) > 0) return true;
+  if (can_be_made(section, key)) return true;
+  problem = parent != nullptr && parent->is_array()
+                ? "null leaves out what stands under a key, but entries of lists stay: give the list anew"
+                : fmt::format("the scene has no \"{}\" here: null leaves out what is there", key);
+  return false;
+}
+
 void apply(Json& scene, const Override& override_, Mistakes& mistakes) {
   const auto parts = split_pointer(override_.pointer);
   if (!parts) {
@@ -97,8 +120,10 @@ void apply(Json& scene, const Override& override_, Mistakes& mistakes) {
   }
   std::string problem, missing = override_.pointer;
   std::optional<Json> value = value_of(override_.value, problem);
-  if (!value || !write_value(scene, *parts, std::move(*value), missing, problem))
-    mistakes.add_to_command(command_of(override_), missing, problem);
+  const bool done =
+      value && (value->is_null() ? leave_out(scene, *parts, problem)
+                                 : write_value(scene, *parts, std::move(*value), missing, problem));
+  if (!done) mistakes.add_to_command(command_of(override_), missing, problem);
 }
 
 }  // namespace

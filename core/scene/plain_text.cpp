@@ -75,7 +75,7 @@ std::string plain_scene_text(const std::string& text, const std::string& name, R
   Mistakes none;
   Json scene = parse_json(text, name).value;
   apply_overrides(scene, options.overrides, none);
-  expand_blocks(scene, std::filesystem::path(name).parent_path(), none);
+  expand_blocks(scene, std::filesystem::path(name).parent_path(), options.most_blocks, none);
   const OrderedJson written = OrderedJson::parse(text, nullptr, true, true);
   return head_of(text) + laid_out(in_order(scene, written));
 }

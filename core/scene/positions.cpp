@@ -1,5 +1,6 @@
 #include "scene/positions.hpp"
 
+#include "scene/nearest.hpp"
 #include "scene/syntax.hpp"
 
 #include <fmt/format.h>
@@ -67,8 +68,7 @@ class Walk : public nlohmann::json_sax<Json> {
   bool key(string_t& name) override {
     levels_.back().key = name;
     levels_.back().has_key = true;
-    on_key(token_start(text_, taken_));
-    return true;
+    return on_key(token_start(text_, taken_));
   }
 
   bool parse_error(std::size_t byte, const std::string&, const Json::exception& problem) override {
@@ -96,7 +96,7 @@ class Walk : public nlohmann::json_sax<Json> {
     return all;
   }
 
-  virtual void on_key(std::size_t /*offset*/) {}
+  virtual bool on_key(std::size_t /*offset*/) { return true; }
   virtual void on_value(std::size_t /*offset*/, Json&& /*value*/) {}
   virtual void on_end() {}
   virtual bool on_start() { return true; }
@@ -136,7 +136,7 @@ class Walk : public nlohmann::json_sax<Json> {
 
 class Builder : public Walk {
  public:
-  Builder(const std::string& text, const std::string& file) : Walk(text), file_(file) {}
+  Builder(const std::string& text, const std::string& file) : Walk(text), file_(file), places_(text) {}
 
   ParsedText build() {
     result_.complete = run();
@@ -144,10 +144,14 @@ class Builder : public Walk {
   }
 
  protected:
-  void on_key(std::size_t offset) override {
+  bool on_key(std::size_t offset) override {
     const std::string& name = levels_.back().key;
     duplicate_ = open_.back()->contains(name);
-    if (duplicate_) mistake(offset, fmt::format("key \"{}\" stands twice in the same object", name));
+    if (!duplicate_) return true;
+    mistake(offset, fmt::format("key \"{}\" stands twice in the same object", clipped(name)));
+    if (++duplicates_ < most_duplicates) return true;
+    mistake(offset, fmt::format("this is key number {} that does: the rest is not read", duplicates_));
+    return false;
   }
 
   void on_value(std::size_t offset, Json&& value) override {
@@ -185,22 +189,27 @@ class Builder : public Walk {
 
  private:
   void mistake(std::size_t offset, std::string message) {
-    const Place place = place_of(text_, offset);
-    result_.mistakes.push_back({file_, place.line, place.column, pointer(), std::move(message)});
+    const Place place = places_.at(offset);
+    result_.mistakes.push_back(
+        {file_, place.line, place.column, clipped(pointer(), longest_pointer), std::move(message)});
   }
 
   const std::string& file_;
+  PlaceCounter places_;
   ParsedText result_;
   std::vector<Json*> open_;
   Json* latest_ = nullptr;
+  static constexpr std::size_t most_duplicates = 1000;
   bool duplicate_ = false;
+  std::size_t duplicates_ = 0;
   std::size_t offset_ = 0;
   std::vector<std::unique_ptr<Json>> discarded_;
 };
 
 class Finder : public Walk {
  public:
-  Finder(const std::string& text, const std::set<std::string>& wanted) : Walk(text), wanted_(wanted) {}
+  Finder(const std::string& text, const std::set<std::string>& wanted)
+      : Walk(text), wanted_(wanted), places_(text) {}
 
   std::map<std::string, Places> find() {
     run();
@@ -208,18 +217,22 @@ class Finder : public Walk {
   }
 
  protected:
-  void on_key(std::size_t offset) override { key_offset_ = offset; }
+  bool on_key(std::size_t offset) override {
+    key_offset_ = offset;
+    return true;
+  }
 
   void on_value(std::size_t offset, Json&&) override {
     std::string here = pointer();
     if (!wanted_.contains(here) || found_.contains(here)) return;
     const bool keyed = !levels_.empty() && !levels_.back().array;
-    const Place value = place_of(text_, offset);
-    found_[std::move(here)] = {value, keyed ? place_of(text_, key_offset_) : value};
+    const Place key = places_.at(keyed ? key_offset_ : offset);
+    found_[std::move(here)] = {places_.at(offset), key};
   }
 
  private:
   const std::set<std::string>& wanted_;
+  PlaceCounter places_;
   std::map<std::string, Places> found_;
   std::size_t key_offset_ = 0;
 };

@@ -16,6 +16,9 @@ using Json = nlohmann::json;
 /// Objects and arrays within each other: enough for any scene, too little to exhaust a stack.
 inline constexpr std::size_t deepest_nesting = 64;
 
+/// Bytes of a JSON pointer that are shown.
+inline constexpr std::size_t longest_pointer = 1000;
+
 struct Place {
   std::size_t line = 0, column = 0;  ///< from 1; columns count characters, not bytes
 };

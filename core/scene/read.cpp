@@ -64,6 +64,8 @@ void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   read_limits(reading, root);
   read_tolerances(reading, root);
   root.child("stages");
+  root.text("$schema", "the path of a JSON Schema", "");  // for editors
+  root.resolved.erase("$schema");
   root.finish();
 }
 
@@ -81,7 +83,8 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
   reading.scene.file = name;
   reading.scene.simd = registry.simd;
   Expansion expansion;
-  if (parsed.value.is_object()) expansion = expand_blocks(parsed.value, reading.folder, mistakes);
+  if (parsed.value.is_object())
+    expansion = expand_blocks(parsed.value, reading.folder, options.most_blocks, mistakes);
   reading.unmade = expansion.unmade;
   reading.scene.warnings = expansion.warnings;
   const ReadAgain read_again = [&](const Json& scene, Mistakes& mistakes_again) {

@@ -35,6 +35,7 @@ struct ReadOptions {
   std::vector<Override> overrides;
   bool allow_plugins =
       false;  ///< whether libraries that the scene names by path may be loaded into the registry
+  double most_blocks = 1e6;  ///< of one generator; so many are some gigabytes as JSON and as bodies
 };
 
 /// Reads and validates a scene. Throws SceneError with every mistake; std::system_error when the file cannot

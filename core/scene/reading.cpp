@@ -17,16 +17,24 @@ std::set<std::string> SurfaceNames::all() const {
   return names;
 }
 
+namespace {
+
+constexpr std::size_t longest_name = 200;  // it stands in every message and column about what it names
+
+}  // namespace
+
 bool check_name(const std::string& name, const std::string& pointer, Mistakes& mistakes) {
   const bool blank = name.empty() || name.find_first_not_of(' ') == std::string::npos;
-  bool good = !blank && name != "*";
+  bool good = !blank && name != "*" && name.size() <= longest_name;
   for (const char c : name) {
     if (std::string_view("/,.\"").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20)
       good = false;
   }
   if (!good) {
-    mistakes.add(pointer, fmt::format("{} is no name: expected text without / , . \" and other than \"*\"",
-                                      shown(Json(name))));
+    mistakes.add(
+        pointer,
+        fmt::format("{} is no name: expected text of up to {} bytes without / , . \" and other than \"*\"",
+                    shown(Json(name)), longest_name));
   }
   return good;
 }
@@ -38,10 +46,14 @@ std::optional<std::uint32_t> take_reference(Section& section, const std::string&
   if (const auto found = index.find(name); found != index.end()) return found->second;
   if (section.has(key) && section.mistakes().count() == mistakes_before) {
     std::vector<std::string> names;
-    for (const auto& [known, position] : index) names.push_back(known);
+    if (!section.mistakes().many()) {
+      for (const auto& [known, position] : index) names.push_back(known);
+    }
+    const std::string help = names.empty() && !index.empty()
+                                 ? std::string()
+                                 : fmt::format(";{} known: {}", did_you_mean(name, names), listed(names));
     section.mistakes().add(section.pointer_to(key),
-                           fmt::format("there is no {} \"{}\";{} known: {}", what, name,
-                                       did_you_mean(name, names), listed(names)));
+                           fmt::format("there is no {} \"{}\"{}", what, clipped(name), help));
   }
   return std::nullopt;
 }
@@ -67,7 +79,7 @@ std::optional<std::uint32_t> take_surface(Reading& reading, Section& section,
     reading.mistakes.add(
         section.pointer_to("surface"),
         fmt::format("body \"{}\" has no surface \"{}\";{} it has: {}", reading.scene.bodies[*body].name,
-                    surface, did_you_mean(surface, list), listed(list)));
+                    clipped(surface), did_you_mean(surface, list), listed(list)));
     return std::nullopt;
   }
   // Not numbered where there is no material.

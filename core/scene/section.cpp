@@ -1,6 +1,7 @@
 #include "scene/section.hpp"
 
 #include "scene/nearest.hpp"
+#include "scene/parameter_text.hpp"
 
 #include <fmt/format.h>
 
@@ -13,17 +14,6 @@
 
 namespace talus {
 namespace {
-
-std::vector<std::string> choices_of(const Parameter& parameter) {
-  std::vector<std::string> all;
-  std::string_view rest = parameter.choices;
-  while (true) {
-    const std::size_t bar = rest.find('|');
-    all.emplace_back(rest.substr(0, bar));
-    if (bar == std::string_view::npos) return all;
-    rest.remove_prefix(bar + 1);
-  }
-}
 
 std::string range_of(const Parameter& parameter) {
   const bool below_bounded = std::isfinite(parameter.minimum),

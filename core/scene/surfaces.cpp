@@ -110,6 +110,7 @@ std::vector<bool> meetings(const Scene& scene) {
   const std::size_t count = scene.surfaces.size();
   std::vector<Holders> holders(count);
   std::vector<bool> meet(count * count);
+  if (count == 0) return meet;  // there is no material, which was told
   for (std::size_t number = 0; number < scene.bodies.size(); ++number) {
     const SceneBody& body = scene.bodies[number];
     const ClassesOfBody classes = classes_of(body);

@@ -83,18 +83,27 @@ std::size_t number_start(const std::string& text, std::size_t taken) {
   return token_start(text, taken > 1 && !is_word(text[taken - 1]) ? taken - 1 : taken);
 }
 
+Place PlaceCounter::at(std::size_t offset) {
+  offset = std::min(offset, text_.size());
+  if (offset < offset_) {
+    offset_ = 0;
+    place_ = {1, 1};
+  }
+  if (offset_ == 0 && offset >= 3 && text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;  // byte order mark
+  for (; offset_ < offset; ++offset_) {
+    const auto byte = static_cast<unsigned char>(text_[offset_]);
+    if (byte == '\n') {
+      ++place_.line;
+      place_.column = 1;
+    } else if ((byte & 0xC0u) != 0x80u) {  // bytes 10xxxxxx continue a character of UTF-8
+      ++place_.column;
+    }
+  }
+  return place_;
+}
+
 Place place_of(const std::string& text, std::size_t offset) {
-  offset = std::min(offset, text.size());
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
-  const auto lines = std::count(text.begin(), end, '\n');
-  const std::size_t newline = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
-  std::size_t line_start = newline == std::string::npos ? 0 : newline + 1;
-  if (line_start == 0 && text.starts_with("\xEF\xBB\xBF") && offset >= 3) line_start = 3;  // byte order mark
-  // Bytes 10xxxxxx continue a character of UTF-8.
-  const auto characters =
-      std::count_if(text.begin() + static_cast<std::ptrdiff_t>(line_start), end,
-                    [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; });
-  return {static_cast<std::size_t>(lines) + 1, static_cast<std::size_t>(characters) + 1};
+  return PlaceCounter(text).at(offset);
 }
 
 SyntaxError explain_syntax_error(const std::string& text, std::size_t byte, const std::string& words) {

@@ -17,7 +17,7 @@ inline constexpr Parameter world[] = {
            "no digits."),
     number("gravity", "m/s2", 0, -unbounded, unbounded, "Acceleration of gravity [gx, gy]."),
     number("damping", "1/s", 0, 0, unbounded,
-           "Global damping force per mass and velocity, all the run long; or \"adaptive\" or \"kinetic\"."),
+           "Global damping force per mass and velocity, all the run long."),
     number("base_acceleration", "m/s2", 0, -unbounded, unbounded,
            "Acceleration [ax, ay] of the ground, which may depend on time; bodies feel its opposite."),
 };
@@ -29,7 +29,8 @@ inline constexpr Parameter material[] = {
 inline constexpr Parameter contact[] = {
     choice(
         "roles", "symmetric|priority", 0,
-        "Whether two moving bodies are master in turn, each by half, or the one of higher priority alone."),
+        "Whether two moving bodies are master in turn, each by half, or the one of higher priority alone; a "
+        "fixed body is always master."),
 };
 
 inline constexpr Parameter coordinate = number("point", "m", required, -largest_coordinate,
@@ -49,14 +50,17 @@ inline constexpr Parameter body[] = {
 inline constexpr Parameter blocks[] = {
     number("smallest_area", "m2", 0, 0, unbounded,
            "Blocks below it join the neighbour with which they have the longest boundary in common."),
-    number("smallest_share", "-", 0, 0, 1, "The same as a share of the mean area; the larger one counts."),
+    number("smallest_share", "-", 0, 0, 1,
+           "The same as a share of the mean area before merging; the larger one counts."),
 };
 
 inline constexpr Parameter joint_set[] = {
-    number("dip", "deg", required, -180, 180, "Angle of the joints to the x axis, counter-clockwise."),
+    number("dip", "deg", required, -180, 180,
+           "Angle of the joints to the x axis, counter-clockwise: joints of 30 rise to the right."),
     number("spacing", "m", required, above_zero, unbounded, "Distance between joints."),
     number("offset", "m", 0, -largest_coordinate, largest_coordinate,
-           "Distance of one joint from the scene's (0, 0), to the left of the direction of the dip."),
+           "Distance of one joint from the scene's (0, 0), to the left of the direction of the dip; so sets "
+           "continue from domain to domain."),
     number("jitter", "-", 0, 0, 0.5, "Share of the spacing by which joints are moved at random, at most."),
     number("persistence", "-", 1, above_zero, 1, "Share of the length of a joint that is open."),
     number(
@@ -68,7 +72,9 @@ inline constexpr Parameter joint_set[] = {
 
 inline constexpr Parameter split[] = {
     number("share", "-", required, 0, 1,
-           "Share of the convex quadrilaterals that are split into triangles, at random."),
+           "Share of the convex quadrilaterals, taken at random, that are split into triangles along the "
+           "shorter "
+           "diagonal, where none is below the smallest area."),
     number("seed", "-", 0, 0, 4294967295, "Whole number from which what is random follows."),
 };
 
@@ -128,7 +134,8 @@ inline constexpr Parameter settle[] = {
     number("duration", "s", required, above_zero, unbounded,
            "How long the scene settles before t = 0, at most."),
     number("damping", "1/s", required, above_zero, unbounded,
-           "Global damping while it settles; or \"adaptive\" or \"kinetic\"."),
+           "Global damping while it settles; twice the angular frequency of the slowest oscillation is "
+           "critical."),
     number("until", "-", not_set, above_zero, 1,
            "Ratio of unbalanced to applied force at which it ends before its duration."),
     flag("hold_stick", true, "Whether friction is held stuck while it settles."),
@@ -143,7 +150,8 @@ inline constexpr double safety_with_contact = 0.4;
 inline constexpr Parameter time[] = {
     number("end", "s", required, above_zero, unbounded, "When the run ends."),
     number("dt", "s", automatic, above_zero, unbounded,
-           "Time step; \"auto\" takes it from votes of bodies and contacts."),
+
+           "Time step; \"auto\" takes it from votes of bodies and contacts. Output times are met exactly."),
     number("safety", "-", 0.2, above_zero, 0.9,
            "The automatic step is min(safety · critical step of undamped contacts and supports alone, "
            "max(0.6, safety) · that of the whole scene), and safety · the latter without any; at most 0.4 "
@@ -162,12 +170,13 @@ inline constexpr Parameter output[] = {
     number("history", "s", not_set, above_zero, unbounded,
            "Interval of the history; a 500th of the run if left out, or a little less to divide the frames' "
            "interval."),
-    number("frames", "s", not_set, above_zero, unbounded, "Interval of the frames; none if left out."),
+    number("frames", "s", not_set, above_zero, unbounded,
+           "Interval of the frames, a whole multiple of that of the history; none if left out."),
 };
 
 inline constexpr Parameter limits[] = {
     number("energy_residual", "-", 0.05, above_zero, unbounded,
-           "Share of the energy throughput that may go missing before a run stops."),
+           "Share of the energy throughput that may go missing before a run stops; it warns at 0.01."),
     number("penetration", "-", 0.3, above_zero, unbounded,
            "Share of the smallest width of a body that an overlap may reach before a run stops."),
 };
@@ -186,35 +195,5 @@ consteval const Parameter& of(std::span<const Parameter> parameters, std::string
   }
   throw "no such key";
 }
-
-/// A section of the scene with its table, for descriptions.
-struct Described {
-  const char* pointer;
-  std::span<const Parameter> parameters;
-};
-
-inline constexpr Described all[] = {
-    {"/", world},
-    {"/materials/*", material},
-    {"/contact", contact},
-    {"/interfaces/*", interface},
-    {"/bodies/*", body},
-    {"/bodies/*/drive", drive},
-    {"/blocks/*", blocks},
-    {"/blocks/*/joint_sets/*", joint_set},
-    {"/blocks/*/split", split},
-    {"/blocks/*/bricks", bricks},
-    {"/blocks/*/voronoi", voronoi},
-    {"/loads/*", load},
-    {"/surface_loads/*", surface_load},
-    {"/prescribed/*", prescribed},
-    {"/settle", settle},
-    {"/stages/*", stage},
-    {"/time", time},
-    {"/sleep", sleep},
-    {"/output", output},
-    {"/limits", limits},
-    {"/tolerances/*", tolerance},
-};
 
 }  // namespace talus::table

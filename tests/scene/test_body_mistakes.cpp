@@ -55,7 +55,7 @@ const BadScene bad_scenes[] = {
      "/bodies/1/cover/model",
      14,
      107,
-     {"no cover builder \"blok\"", "did you mean \"block\"", "block, rigid"}},
+     {"no cover \"blok\"", "did you mean \"block\"", "block, rigid"}},
     {"fix with fixed is named",
      "\"fixed\": true",
      "\"fixed\": true, \"fix\": [\"x\"]",

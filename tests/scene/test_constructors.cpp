@@ -48,7 +48,7 @@ TEST_CASE("defaults that a constructor refuses are a mistake where the law is na
   const auto found = mistakes(sample::good_but(chosen, "{\"model\": \"springy\"}"));
   REQUIRE(found.size() == 1);
   CHECK(found[0].text() ==
-        "scene.json:8:24: /contact/model: contact model \"springy\" refuses its parameters: a spring above 0 "
+        "scene.json:8:24: /contact/model: contact law \"springy\" refuses its parameters: a spring above 0 "
         "is needed");
 }
 

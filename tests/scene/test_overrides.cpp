@@ -145,3 +145,23 @@ TEST_CASE("of two --set that fail alike each is told", "[scene]") {
   CHECK(found[0].file == "--set /contac/model=a");
   CHECK(found[1].file == "--set /contac/roles=b");
 }
+
+TEST_CASE("null leaves out what stands under a key", "[scene]") {
+  const std::string with_frames =
+      sample::good_but("{\"end\": 5}", "{\"end\": 5}, \"output\": {\"frames\": 0.1}, \"sleep\": {}");
+  REQUIRE(sample::read(with_frames).output.frames);
+  CHECK_FALSE(sample::read(with_frames, set({{"/output/frames", "null"}})).output.frames);
+  CHECK_FALSE(sample::read(with_frames, set({{"/sleep", "null"}})).sleep);
+  CHECK_FALSE(
+      sample::read(sample::good, set({{"/sleep", "null"}})).sleep);  // what may be left out need not be there
+  CHECK(sample::read(sample::good, set({{"/sleep", "{}"}})).sleep);
+  const auto why = [](const std::string& pointer) {
+    const auto found = sample::mistakes(sample::good, set({{pointer, "null"}}));
+    REQUIRE(found.size() == 1);
+    return found[0].message;
+  };
+  CHECK_THAT(why("/slep"), Catch::Contains("no \"slep\" here: null leaves out what is there"));
+  CHECK_THAT(why("/settle/until"), Catch::Contains("no \"until\" here"));
+  CHECK_THAT(why("/bodies/0"), Catch::Contains("entries of lists stay"));
+  CHECK_THAT(why("/time"), Catch::Contains("required key \"time\" is missing"));
+}
