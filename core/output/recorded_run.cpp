@@ -1,93 +1,93 @@
 #include "output/recorded_run.hpp"
 
-#include "output/frame.hpp"
-#include "output/history.hpp"
+#include "output/recorder.hpp"
+#include "output/run_keeper.hpp"
 #include "output/run_record.hpp"
 #include "output/whole_file.hpp"
 
-#include <cmath>
-#include <optional>
+#include <fmt/format.h>
+
+#include <system_error>
 
 namespace talus {
 
 namespace {
 
-/// Writes rows and frames as they fall due, each time once.
-class Recorder {
- public:
-  Recorder(const Simulation& simulation, const std::filesystem::path& folder)
-      : simulation_(simulation),
-        columns_(monitor_columns(simulation.scene())),
-        history_(folder / "history.csv", columns_) {
-    if (simulation.scene().output.frames) frames_.emplace(folder);
-    series_.names = columns_;
-    series_.values.resize(columns_.size());
-  }
-
-  void record_due() {
-    if (simulation_.history_due()) record_row();
-    if (frames_ && simulation_.frame_due()) record_frame();
-  }
-
-  /// The state at which a run was broken off. Positions that are no numbers would spoil the picture.
-  void record_last() {
-    record_row();
-    if (frames_ && sample_frame(simulation_).finite()) record_frame();
-  }
-
-  Series take_series() { return std::move(series_); }
-
- private:
-  void record_row() {
-    const double time = simulation_.time();
-    if (!(series_.time.empty() ? std::isfinite(time) : time > series_.time.back())) return;
-    const std::vector<double> values = sample_monitors(simulation_);
-    history_.add(time, values);
-    series_.time.push_back(time);
-    for (std::size_t i = 0; i < values.size(); ++i) series_.values[i].push_back(values[i]);
-  }
-
-  void record_frame() {
-    const double time = simulation_.time();
-    if (last_frame_ && !(time > *last_frame_)) return;
-    frames_->add(sample_frame(simulation_));
-    last_frame_ = time;
-  }
-
-  const Simulation& simulation_;
-  std::vector<std::string> columns_;
-  HistoryWriter history_;
-  std::optional<FrameWriter> frames_;
-  std::optional<double> last_frame_;
-  Series series_;
-};
-
 bool wants_to_stop(const RunOrder& order) {
   return order.interrupted != nullptr && *order.interrupted;
 }
 
-void settle(Simulation& simulation, const RunOrder& order, RunResult& result) {
-  if (order.before_settling) order.before_settling(simulation);
-  if (!wants_to_stop(order)) {
+/// A run on its way.
+struct Course {
+  Simulation& simulation;
+  const RunOrder& order;
+  Recorder& recorder;
+  RunKeeper& keeper;
+  RunResult& result;
+
+  Pause pause() const {
+    return [this] { return wants_to_stop(order) || keeper.due() || keeper.out_of_wall_time(); };
+  }
+  /// Whether the run goes on after a pause.
+  bool goes_on() const {
+    result.out_of_wall_time = keeper.out_of_wall_time();
+    if (wants_to_stop(order) || result.out_of_wall_time) {
+      result.end = RunEnd::interrupted;
+      keeper.write(result.out_of_wall_time ? "the wall time was over" : "the run was interrupted");
+      return false;
+    }
+    if (keeper.due()) keeper.write("it was time for one");
+    return true;
+  }
+};
+
+bool settle(const Course& course) {
+  const auto& [simulation, order, recorder, keeper, result] = course;
+  if (order.before_settling && order.from == nullptr) order.before_settling(simulation);
+  bool on = course.goes_on(), settled = false;
+  while (on && !settled) {
     const Stopwatch watch(order.clock);
-    simulation.settle(order.interrupted);
+    settled = simulation.settle(course.pause());
     result.settling += watch.elapsed();
+    on = course.goes_on();
   }
   if (order.after_settling) order.after_settling(simulation);
+  return on;
 }
 
-void step_to_the_end(Simulation& simulation, const RunOrder& order, Recorder& recorder, RunResult& result) {
-  while (!wants_to_stop(order)) {
+void step_to_the_end(const Course& course) {
+  const auto& [simulation, order, recorder, keeper, result] = course;
+  do {
     const Stopwatch stepping(order.clock);
-    const bool more = simulation.advance(order.interrupted);
+    const bool more = simulation.advance(course.pause());
     result.stepping += stepping.elapsed();
     if (!more) return;
+    if (!simulation.history_due()) continue;
     const Stopwatch writing(order.clock);
     recorder.record_due();
+    keeper.remember();
     result.writing += writing.elapsed();
     if (order.progress) order.progress(simulation.time());
+  } while (course.goes_on());
+}
+
+/// Where a file cannot be written, the disk is full perhaps: a state is small, and the time that it took is
+/// not.
+[[noreturn]] void keep_what_there_is(RunKeeper& keeper, const RunResult& result,
+                                     const std::system_error& failure) {
+  const std::string reason = failure.what();
+  try {
+    keeper.write_remembered(reason);
+  } catch (const std::system_error&) {
+    throw failure;
   }
-  result.end = RunEnd::interrupted;
+  if (result.checkpoint.empty()) throw failure;
+  const std::string why = failure.code().message();
+  throw std::system_error(
+      failure.code(),
+      fmt::format(
+          "{}; '{}' holds the state at t = {:.6g} s, from which `talus resume` goes on: the reason is",
+          reason.substr(0, reason.rfind(": " + why)), result.checkpoint.string(), result.checkpoint_time));
 }
 
 }  // namespace
@@ -96,17 +96,30 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
   RunResult result;
   write_whole_file(order.folder / "resolved.json", simulation.scene().resolved + "\n");
   Recorder recorder(simulation, order.folder);
+  RunKeeper keeper(order, simulation, recorder, result);
+  if (order.from != nullptr) {
+    keeper.restore(*order.from);
+  } else {
+    recorder.begin();
+  }
   try {
-    settle(simulation, order, result);
-    step_to_the_end(simulation, order, recorder, result);
+    const Course course{simulation, order, recorder, keeper, result};
+    if (settle(course)) step_to_the_end(course);
   } catch (const NumericalTrouble& trouble) {
     result.end = RunEnd::stopped;
     result.trouble = trouble.what();
+    keeper.write_remembered("the last good state; then " + result.trouble);
+  } catch (const std::system_error& failure) {
+    keep_what_there_is(keeper, result, failure);
   }
-  if (result.end != RunEnd::finished) recorder.record_last();
+  if (result.end != RunEnd::finished && simulation.started()) {
+    simulation.look_now();
+    recorder.record_last();
+  }
   result.time = simulation.time();
   result.history = recorder.take_series();
   result.blocks = simulation.block_count();
+  result.elements = simulation.element_count();
   result.summary = simulation.summary();
   result.ledger = simulation.ledger();
   result.state_hash = simulation.state_hash();

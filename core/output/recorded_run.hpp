@@ -1,13 +1,16 @@
 #pragma once
 
+#include "checkpoint/checkpoint.hpp"
 #include "output/series.hpp"
 #include "output/stopwatch.hpp"
 #include "scene/read.hpp"
 #include "simulation/simulation.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,16 @@ namespace talus {
 
 enum class RunEnd {
   finished,
-  interrupted,  ///< by the user
+  interrupted,  ///< by the user, or at the end of its wall time
   stopped,      ///< by numerical trouble
+};
+
+/// When the state of a run is kept in a file: every `every` seconds of wall time, where it is interrupted,
+/// and the last good one where it is stopped.
+struct CheckpointOrder {
+  Checkpoint run;                   ///< what the run was started with
+  std::optional<double> every;      ///< s
+  std::optional<double> wall_time;  ///< s that the run may take before it is broken off
 };
 
 /// How a run is to be made and recorded.
@@ -29,17 +40,22 @@ struct RunOrder {
   std::function<void(Simulation&)> before_settling, after_settling;  ///< called even if nothing settles
   const std::atomic<bool>* interrupted = nullptr;                    ///< polled once per step
   std::function<void(double time)> progress;                         ///< called at each output time
+  std::optional<CheckpointOrder> checkpoints;
+  const Checkpoint* from = nullptr;  ///< goes on from there, with files as they were then
 };
 
 /// What came out of a run.
 struct RunResult {
   RunEnd end = RunEnd::finished;
-  std::string trouble;  ///< words, where it was stopped
-  double time = 0;      ///< s, how far it came
-  Series history;       ///< the rows of history.csv
+  std::string trouble;               ///< words, where it was stopped
+  std::filesystem::path checkpoint;  ///< the last one written, if any
+  double checkpoint_time = 0;        ///< s, its t
+  bool out_of_wall_time = false;
+  double time = 0;  ///< s, how far it came
+  Series history;   ///< the rows of history.csv
   Elapsed settling, stepping, writing;
   double block_steps_per_second = 0;  ///< of wall time in the steps
-  std::size_t blocks = 0;
+  std::size_t blocks = 0, elements = 0;
   RunSummary summary;
   EnergyLedger ledger;
   std::string state_hash;

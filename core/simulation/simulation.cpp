@@ -59,22 +59,25 @@ Geometry Simulation::geometry() const {
   return geometry;
 }
 
-void Simulation::settle(const std::atomic<bool>* interrupted) {
+bool Simulation::settle(const Pause& pause) {
   State& s = *state_;
-  if (!s.scene.settle) return;
-  s.settling = true;
-  s.begin(s.scene.settle->duration);
+  if (!s.scene.settle || s.started) return true;
+  if (!s.settling) {
+    s.settling = true;
+    s.begin(s.scene.settle->duration);
+  }
   while (s.time < s.scene.settle->duration && !s.settled()) {
+    if (pause && pause()) return false;
     s.step(s.scene.settle->duration);
-    if (interrupted != nullptr && *interrupted) break;
   }
   s.settling = false;
   s.motion.stop();
   s.time = 0;
   s.ledger.reset();
+  return true;
 }
 
-bool Simulation::advance(const std::atomic<bool>* interrupted) {
+bool Simulation::advance(const Pause& pause) {
   State& s = *state_;
   const double interval = s.scene.output.history, end = s.scene.time.end;
   const auto output_time = [&](std::uint64_t number) {
@@ -96,14 +99,19 @@ bool Simulation::advance(const std::atomic<bool>* interrupted) {
   if (s.time >= end) return false;
   const double target = output_time(s.output + 1);
   while (s.time < target) {
-    s.watched = interrupted != nullptr && *interrupted;
+    s.watched = pause && pause();
     s.step(output_time(s.output + 2));
-    if (s.watched) break;
+    if (s.watched && s.time < target) return true;
   }
-  if (s.time == target) ++s.output;
+  s.watched = false;
+  ++s.output;
   s.bring_rotation_up_to_date();
   s.check_balance();
   return true;
+}
+
+void Simulation::look_now() {
+  state_->bring_rotation_up_to_date();
 }
 
 double Simulation::time() const {
@@ -111,6 +119,18 @@ double Simulation::time() const {
 }
 double Simulation::critical_dt() const {
   return state_->votes.anyhow().dt;
+}
+double Simulation::last_dt() const {
+  return state_->dt_behind;
+}
+CriticalStep Simulation::present_bound() const {
+  CriticalStep bound = state_->critical;
+  bound.body = state_->numbering.outside(bound.body);
+  bound.spring_body = state_->numbering.outside(bound.spring_body);
+  return bound;
+}
+double Simulation::body_width(std::size_t body) const {
+  return state_->model.bodies[state_->numbering.inside(body)].width;
 }
 double Simulation::automatic_dt() const {
   return automatic_step(state_->votes.anyhow(), state_->scene.time.safety);
@@ -139,12 +159,17 @@ std::size_t Simulation::body_count() const {
   return state_->model.bodies.size();
 }
 
+bool Simulation::started() const {
+  return state_->started;
+}
+
+/// A step was watched to be looked at between two output times.
 bool Simulation::history_due() const {
-  return true;
+  return state_->started && !state_->watched;
 }
 
 bool Simulation::frame_due() const {
-  if (!state_->scene.output.frames) return false;
+  if (!state_->scene.output.frames || !history_due()) return false;
   const auto every =
       static_cast<std::uint64_t>(std::llround(*state_->scene.output.frames / state_->scene.output.history));
   return state_->output % every == 0 || state_->time >= state_->scene.time.end;
@@ -287,6 +312,10 @@ std::size_t Simulation::patch_count() const {
 
 std::size_t Simulation::element_count() const {
   return state_->model.elements.size();
+}
+
+std::size_t Simulation::pair_count() const {
+  return state_->contacts.pairs().size();
 }
 
 std::vector<Contact> Simulation::contacts() const {

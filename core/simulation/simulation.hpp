@@ -1,11 +1,12 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "scene/scene.hpp"
 #include "simulation/profile.hpp"
 #include "simulation/time_step.hpp"
 
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -37,6 +38,25 @@ struct EnergyLedger {
   double external_work = 0;  ///< gravity, loads, prescribed motion
   double residual = 0;       ///< what the sum above misses
   double throughput = 0;     ///< the largest energy in circulation so far; the residual is judged against it
+};
+
+/// What the ledger is made of, as it is written.
+struct LedgerEntry {
+  const char* name;
+  double EnergyLedger::*value;
+};
+inline constexpr LedgerEntry ledger_entries[] = {
+    {"kinetic", &EnergyLedger::kinetic},
+    {"strain", &EnergyLedger::strain},
+    {"contact", &EnergyLedger::contact},
+    {"friction_loss", &EnergyLedger::friction_loss},
+    {"contact_damping_loss", &EnergyLedger::contact_damping_loss},
+    {"global_damping_loss", &EnergyLedger::global_damping_loss},
+    {"material_loss", &EnergyLedger::material_loss},
+    {"sleep_loss", &EnergyLedger::sleep_loss},
+    {"external_work", &EnergyLedger::external_work},
+    {"residual", &EnergyLedger::residual},
+    {"throughput", &EnergyLedger::throughput},
 };
 
 /// Motion of a body or of a material point at t_n; velocity is ½(v₋ + v₊). Displacement since t = 0.
@@ -100,6 +120,9 @@ struct Geometry {
   std::vector<std::uint32_t> numbering;  ///< of the bodies, for the memory
 };
 
+/// Asked once per step whether to leave off after it.
+using Pause = std::function<bool()>;
+
 /// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.
 class Simulation {
  public:
@@ -114,31 +137,46 @@ class Simulation {
   Geometry geometry() const;
 
   /// The settle stage, if the scene asks for one; friction held stuck, then velocities and clock to zero.
-  /// `interrupted`, polled once per step, ends it early.
-  void settle(const std::atomic<bool>* interrupted = nullptr);
+  /// False where it was left off; the next call goes on.
+  bool settle(const Pause& pause = {});
 
-  /// Runs to the next output time (the first call: to t = 0). False when the end was reached before.
-  /// `interrupted`, polled once per step, ends the call early with true. Throws NumericalTrouble.
-  bool advance(const std::atomic<bool>* interrupted = nullptr);
+  /// Runs to the next output time (the first call: to t = 0). False when the end was reached before. Where it
+  /// was left off between two output times the next call goes on. Throws NumericalTrouble.
+  bool advance(const Pause& pause = {});
+
+  /// After advance() was left off: makes motions of the present time fit to be looked at. The way there is no
+  /// longer the same to the last bit.
+  void look_now();
 
   double time() const;                    ///< s
-  bool history_due() const;               ///< whether the present output time is one of the history
+  bool history_due() const;               ///< whether this is an output time of the history
   bool frame_due() const;                 ///< whether it is one of the frames
+  bool started() const;                   ///< whether t = 0 was reached
   double critical_dt() const;             ///< s, bound over strain modes and contacts, whoever meets whom
+  double last_dt() const;                 ///< s, of the step that led here; 0 at the start
+  CriticalStep present_bound() const;     ///< of the stable step, with the neighbours that bodies have now
   double automatic_dt() const;            ///< s, what "auto" takes as long as nothing moves too fast for it
   std::string automatic_limiter() const;  ///< who limits automatic_dt(), in words
+  std::string model_hash() const;         ///< of the bodies as they were laid, before they moved
   std::string state_hash() const;         ///< of displacements, velocities and contact history
 
   std::size_t body_count() const;
-  std::size_t block_count() const;  ///< bodies with unknowns
+  std::size_t block_count() const;            ///< bodies with unknowns
+  double body_width(std::size_t body) const;  ///< m, the smallest across it
   Motion body_motion(std::size_t body) const;
   Motion point_motion(std::size_t body, Vec2 point_at_start) const;
   std::vector<BodyPart> parts(std::size_t body) const;
   std::size_t patch_count() const;
   std::size_t element_count() const;
   std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any
+  std::size_t pair_count() const;             ///< of pieces that are near each other, found last
   std::vector<Contact> contacts() const;
   const EnergyLedger& ledger() const;
+
+  /// All that the coming steps depend on. What was put in at any time between two steps makes another
+  /// simulation of the same scene go on with the same bits. Throws InputError where it does not fit.
+  void exchange(Archive& archive);
+
   RunSummary summary() const;
 
  private:

@@ -1,5 +1,7 @@
 #include "simulation/state.hpp"
 
+#include "output/input_error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +17,8 @@ constexpr double warn_residual = 0.01;  ///< of the energy throughput
 constexpr double rounding = 1e-9;       ///< share by which a step may be stretched rather than split in two
 /// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
 constexpr double restless = 0.4;
+/// Up to the next output: centuries of computing, and still a whole number in a double.
+constexpr double countable_steps = 1e15;
 constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
 
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
@@ -31,7 +35,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       workers(settings.threads),
       model(build_model(scene)),
       motion(model),
-      blocks(model, scene.simd, workers),
+      blocks(model, scene.simd, workers, scene.contact.component != nullptr),
       mass(model),
       contacts(scene, model, workers, settings.neighbour_skin, scene.simd),
       deformation(scene, model, workers),
@@ -94,6 +98,7 @@ void Simulation::State::forces() {
   profile.enter(Phase::boundary);
   motion.clear_forces(model);
   speeds = blocks.follow(model, motion);  // Eq. 11
+  check_numbers();
   const Vec2 pull = gravity();
   if (sleep && !settling) sleep->watch(time, pull, workers, sleeping_parts());
   profile.enter(Phase::neighbours);
@@ -158,6 +163,7 @@ double Simulation::State::evaluate_contacts() {
     sleep->wake(contacts.touched(), time, sleeping_parts());
     contact_totals.stored += sleep->contact_energy();
   }
+  if (observed) check_law();
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;
   return work;
@@ -177,6 +183,7 @@ double Simulation::State::energy_floor() const {
 
 /// Of the frame that moves with the ground.
 Vec2 Simulation::State::gravity() const {
+  if (stage.base_acceleration[0].zero() && stage.base_acceleration[1].zero()) return stage.gravity;
   const double now = settling ? 0 : time;
   return {stage.gravity.x - stage.base_acceleration[0](now, {}),
           stage.gravity.y - stage.base_acceleration[1](now, {})};
@@ -189,16 +196,22 @@ bool Simulation::State::settled() const {
 void Simulation::State::begin_due_stages() {
   if (settling) return;
   while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
-    stage = scene.stages[stages_begun++].settings;
-    if (sleep) sleep->begin_stage(stage, time, sleeping_parts());
-    contacts.set_interfaces(stage.interface_values);
-    blocks.set_supports(stage.supports);
+    const StageSettings& next = scene.stages[stages_begun++].settings;
+    if (sleep) sleep->begin_stage(next, time, sleeping_parts());
+    enter_stage(next);
     interfaces_changed = true;
     loads.replace(Loads(scene, stage, model));
-    votes = StepVote(scene, stage, model, contacts);
     critical = votes.among(contacts.lightest_neighbours());
     summary.critical_dt = std::min(summary.critical_dt, critical.dt);
   }
+}
+
+/// All but loads, which let go of what they held.
+void Simulation::State::enter_stage(const StageSettings& next) {
+  stage = next;
+  contacts.set_interfaces(stage.interface_values);
+  blocks.set_supports(stage.supports);
+  votes = StepVote(scene, stage, model, contacts);
 }
 
 double Simulation::State::nominal_dt() const {
@@ -238,7 +251,14 @@ void Simulation::State::make_plan(double end) {
   const double target = end;
   if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
   const double span = end - time;
-  const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span / dt * (1 - rounding))));
+  const double wanted = std::max(1.0, std::ceil(span / dt * (1 - rounding)));
+  if (!(wanted <= countable_steps)) {
+    throw InputError(
+        fmt::format("from t = {:.6g} s to the next output at {:.6g} s there are {:.3g} steps of {:.3g} s, "
+                    "more than any run can do: expected at most {:.0e}",
+                    time, end, wanted, dt, countable_steps));
+  }
+  const auto steps = static_cast<std::uint64_t>(wanted);
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   summary.dt = std::max(summary.dt, plan.dt);
 }
@@ -270,13 +290,31 @@ void Simulation::State::remember_deepest() {
   deepest_pair = {contact_totals.deepest_a, contact_totals.deepest_b};
 }
 
+/// Before contacts are evaluated with it: the loads are still those that led here.
+void Simulation::State::check_numbers() const {
+  if (std::isfinite(speeds.largest)) return;
+  if (contacts.law() != nullptr) check_law();
+  throw NumericalTrouble(
+      fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
+                  "take a smaller time step",
+                  time, plan.dt, critical.dt));
+}
+
+/// At output times, and where something is no number.
+void Simulation::State::check_law() const {
+  const LawFault fault = contacts.fault(model, motion);
+  if (fault.found.empty()) return;
+  const RegisteredComponent& law = *scene.contact.component;
+  const std::string where =
+      fault.of_pair ? fmt::format(" between {} and {}", place(fault.a), place(fault.b)) : "";
+  throw NumericalTrouble(
+      fmt::format("{}: contact law '{}' gave {}{} at t = {:.9g} s; wanted finite loads that are equal and "
+                  "opposite and leave no "
+                  "moment, written at the corners of the pairs it is given; mend the law or choose another",
+                  law.file.string(), law.component->name, fault.found, where, time));
+}
+
 void Simulation::State::check_step() const {
-  if (!std::isfinite(speeds.largest)) {
-    throw NumericalTrouble(
-        fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
-                    "take a smaller time step",
-                    time, plan.dt, critical.dt));
-  }
   if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
     throw NumericalTrouble(
         fmt::format("the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
@@ -365,8 +403,8 @@ void Simulation::State::warn_of_initial_overlap() {
 /// Follows each body through full turns: the angle since the last time is less than half of one.
 void Simulation::State::bring_rotation_up_to_date() {
   turned = 0;
-  for (std::size_t i = 0; i < rotation.size(); ++i) {
-    if (model.covered(static_cast<std::uint32_t>(i))) motion.average(model, static_cast<std::uint32_t>(i));
+  for (const std::uint32_t i : model.moving_bodies) {
+    if (model.covered(i)) motion.average(model, i);
     const Matrix2 &now = motion.bodies[i].h, &last = last_turn[i];
     // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.
     const double c = 2 + now.xx + now.yy, s = now.yx - now.xy;

@@ -92,6 +92,7 @@ struct Simulation::State {
   void forces();
   bool forces_first(const Damping& how) const;
   void begin_due_stages();
+  void enter_stage(const StageSettings& next);
   Vec2 gravity() const;
   bool settled() const;
   double evaluate_contacts();
@@ -99,6 +100,8 @@ struct Simulation::State {
   Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion, at_time}; }
   double energy_floor() const;
   void remember_deepest();
+  void check_numbers() const;
+  void check_law() const;
   void check_step() const;
   void check_balance();
   void warn_of_large_step();
@@ -106,6 +109,10 @@ struct Simulation::State {
   void bring_rotation_up_to_date();
   void set_initial_velocities();
   std::string place(std::uint32_t body) const;
+
+  // Between steps; see Simulation::exchange().
+  void exchange_clock(Archive& archive);
+  void exchange_books(Archive& archive);
 };
 
 }  // namespace talus

@@ -1,0 +1,68 @@
+#include "kept_run.hpp"
+
+#include "output/input_error.hpp"
+#include "output/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace talus {
+namespace {
+
+Registry registry_of(const Checkpoint& checkpoint, std::vector<std::filesystem::path> folders) {
+  if (checkpoint.simd > best_simd_level()) {
+    throw InputError(
+        fmt::format("the run was started with {} instructions, this machine has no more than {}: go on where "
+                    "it was started",
+                    name_of(checkpoint.simd), name_of(best_simd_level())));
+  }
+  for (const std::filesystem::path& folder : checkpoint.plugin_folders) {
+    if (std::filesystem::is_directory(folder)) folders.push_back(folder);
+  }
+  Registry registry;
+  registry.simd = checkpoint.simd;
+  offer_folders(registry, search_path(folders));
+  return registry;
+}
+
+void check_libraries(const Checkpoint& checkpoint, const Scene& scene) {
+  const std::vector<Checkpoint::UsedLibrary> now = hashed_libraries(scene);
+  for (const Checkpoint::UsedLibrary& then : checkpoint.libraries) {
+    const auto same = [&](const Checkpoint::UsedLibrary& library) { return library.hash == then.hash; };
+    if (std::any_of(now.begin(), now.end(), same)) continue;
+    throw InputError(
+        fmt::format("the library {} that the run was started with is not the one found now (its hash "
+                    "was {}): name the folder of the old one with --plugin-path",
+                    then.file, then.hash));
+  }
+}
+
+Scene scene_of(const Checkpoint& checkpoint, Registry& registry, const Log& log) {
+  Scene scene = read_scene_text(checkpoint.scene_text, checkpoint.scene_file.string(), registry,
+                                {checkpoint.overrides, checkpoint.allow_plugins});
+  for (const std::string& warning : scene.warnings) log.warning(warning);
+  check_libraries(checkpoint, scene);
+  return scene;
+}
+
+}  // namespace
+
+std::filesystem::path checkpoint_file(const std::filesystem::path& given) {
+  return std::filesystem::is_directory(given) ? given / checkpoint_name : given;
+}
+
+KeptRun::KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,
+                 const std::vector<std::filesystem::path>& more_plugin_folders, const Log& log)
+    : registry(registry_of(checkpoint, more_plugin_folders)),
+      simulation(scene_of(checkpoint, registry, log), settings) {
+  if (simulation.model_hash() != checkpoint.model_hash) {
+    throw InputError(
+        fmt::format("the bodies of '{}' are no longer those of the run: a file that the scene names "
+                    "has changed; restore it, or run the scene anew",
+                    checkpoint.scene_file.string()));
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "checkpoint/checkpoint.hpp"
+#include "log.hpp"
+#include "plugin/registry.hpp"
+#include "simulation/simulation.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace talus {
+
+/// The checkpoint that is meant by a file or by the folder of a run.
+std::filesystem::path checkpoint_file(const std::filesystem::path& given);
+
+/// The simulation of a checkpoint as it was started, and what it points into. Throws InputError where it
+/// would not be the same: another instruction set, library or file that the scene names.
+struct KeptRun {
+  KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,
+          const std::vector<std::filesystem::path>& more_plugin_folders, const Log& log = {});
+
+  Registry registry;
+  Simulation simulation;
+};
+
+}  // namespace talus

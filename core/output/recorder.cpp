@@ -1,0 +1,63 @@
+#include "output/recorder.hpp"
+
+#include <cmath>
+
+namespace talus {
+namespace {
+
+constexpr const char *history_name = "history.csv", *energy_name = "energy.csv";
+
+}  // namespace
+
+Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& folder)
+    : simulation_(simulation), folder_(folder), columns_(monitor_columns(simulation.scene())) {
+  if (simulation.scene().output.frames) frames_.emplace(folder);
+  series_.names = columns_;
+  series_.values.resize(columns_.size());
+}
+
+void Recorder::begin() {
+  history_.emplace(folder_ / history_name, columns_);
+  energy_.emplace(folder_ / energy_name, energy_columns());
+}
+
+void Recorder::exchange(Archive& archive) {
+  std::uint64_t size = history_ ? history_->size() : 0, energy_size = energy_ ? energy_->size() : 0;
+  archive(size);
+  archive(energy_size);
+  archive(last_frame_);
+  if (frames_) frames_->exchange(archive);
+  if (!archive.reading()) return;
+  history_.emplace(folder_ / history_name, size);
+  energy_.emplace(folder_ / energy_name, energy_size);
+  series_ = read_series(folder_ / history_name);
+}
+
+void Recorder::record_due() {
+  if (simulation_.history_due()) record_row();
+  if (frames_ && simulation_.frame_due()) record_frame();
+}
+
+void Recorder::record_last() {
+  record_row();
+  if (frames_ && sample_frame(simulation_).finite()) record_frame();
+}
+
+void Recorder::record_row() {
+  const double time = simulation_.time();
+  if (!(series_.time.empty() ? std::isfinite(time) : time > series_.time.back())) return;
+  const std::vector<double> values = sample_monitors(simulation_);
+  history_->add(time, values);
+  energy_->add(time, energies(simulation_.ledger()));
+  series_.time.push_back(time);
+  for (std::size_t i = 0; i < values.size(); ++i) series_.values[i].push_back(values[i]);
+}
+
+void Recorder::record_frame() {
+  const double time = simulation_.time();
+  if (!(time > last_frame_)) return;
+  frames_->add(sample_frame(simulation_));
+  last_frame_ = time;
+}
+
+}  // namespace talus

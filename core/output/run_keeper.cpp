@@ -1,0 +1,76 @@
+#include "output/run_keeper.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double share_of_remembering = 0.02;
+
+}  // namespace
+
+RunKeeper::RunKeeper(const RunOrder& order, Simulation& simulation, Recorder& recorder, RunResult& result)
+    : order_(order), simulation_(simulation), recorder_(recorder), result_(result) {}
+
+std::string RunKeeper::state() {
+  Archive archive;
+  exchange(archive);
+  return archive.bytes();
+}
+
+void RunKeeper::restore(const Checkpoint& checkpoint) {
+  Archive archive(checkpoint.state);
+  exchange(archive);
+  if (!archive.at_end()) Archive::refuse();
+}
+
+/// The simulation comes first, for those who want nothing else.
+void RunKeeper::exchange(Archive& archive) {
+  simulation_.exchange(archive);
+  recorder_.exchange(archive);
+  archive(result_.settling);
+  archive(result_.stepping);
+  archive(result_.writing);
+}
+
+bool RunKeeper::due() const {
+  return order_.checkpoints && order_.checkpoints->every &&
+         wall() >= last_written_ + *order_.checkpoints->every;
+}
+
+bool RunKeeper::out_of_wall_time() const {
+  return order_.checkpoints && order_.checkpoints->wall_time && wall() >= *order_.checkpoints->wall_time;
+}
+
+void RunKeeper::note(Checkpoint& checkpoint) const {
+  checkpoint.model_hash = simulation_.model_hash();
+  checkpoint.time = simulation_.time();
+  checkpoint.settling = !simulation_.started();
+  checkpoint.steps = simulation_.summary().steps;
+}
+
+void RunKeeper::write(const std::string& reason) {
+  if (!order_.checkpoints) return;
+  remembered_ = order_.checkpoints->run;
+  note(remembered_);
+  remembered_.state = state();
+  write_remembered(reason);
+  last_written_ = wall();
+}
+
+void RunKeeper::remember() {
+  if (!order_.checkpoints || remembering_ > share_of_remembering * wall()) return;
+  const double before = wall();
+  if (remembered_.state.empty()) remembered_ = order_.checkpoints->run;
+  note(remembered_);
+  remembered_.state = state();
+  remembering_ += wall() - before;
+}
+
+void RunKeeper::write_remembered(const std::string& reason) {
+  if (remembered_.state.empty()) return;
+  remembered_.reason = reason;
+  result_.checkpoint = order_.folder / checkpoint_name;
+  result_.checkpoint_time = remembered_.time;
+  write_checkpoint(result_.checkpoint, remembered_);
+}
+
+}  // namespace talus

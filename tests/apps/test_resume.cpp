@@ -1,0 +1,155 @@
+#include "apps/program.hpp"
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <signal.h>
+
+#include <random>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Some tenths of a second of steps, with rows and frames.
+std::vector<std::string> run_words(const std::string& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{
+      "run",   "small.json",           "--quiet", "--out",           out, "--set", "/time/end=60",
+      "--set", "/output/history=0.25", "--set",   "/output/frames=5"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// Rows, frames and their list, and the state at the end.
+void check_same_results(const Scratch& scratch, const std::string& got, const std::string& due) {
+  const auto text = [&](const std::string& folder, const std::string& file) {
+    return read_whole_file(scratch / folder / file);
+  };
+  CHECK(text(got, "history.csv") == text(due, "history.csv"));
+  CHECK(text(got, "frames.pvd") == text(due, "frames.pvd"));
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / due / "frames")) {
+    const std::string file = "frames/" + entry.path().filename().string();
+    CHECK(text(got, file) == text(due, file));
+  }
+  const auto got_record = json_of(scratch / got / "run.json"),
+             due_record = json_of(scratch / due / "run.json");
+  for (const char* key :
+       {"end", "t [s]", "steps", "ledger", "state_hash", "largest_residual_share", "warnings"})
+    CHECK(got_record[key] == due_record[key]);
+}
+
+}  // namespace
+
+TEST_CASE("resume goes on with what Ctrl-C broke off, and results are those of one run", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("whole")).code == 0);
+  Call call = call_and_signal(scratch.folder(), run_words("broken"), SIGINT, scratch / "broken/frames.pvd");
+  REQUIRE(call.code == 130);
+  CHECK_THAT(call.err, Contains("`talus resume broken` goes on"));
+  // Broken off once more, before the first instant of it.
+  call = call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "0"});
+  CHECK(call.code == 130);
+  CHECK_THAT(call.err, Contains("out of wall time"));
+  call = call_talus(scratch.folder(), {"info", "broken"});
+  CHECK(call.code == 0);
+  CHECK_THAT(call.out, Contains("a whole checkpoint") && Contains("the wall time was over") &&
+                           Contains("small.json") && Contains("/time/end=60") &&
+                           Contains("liboverlap_area.so"));
+  call = call_talus(scratch.folder(), {"resume", "broken", "--quiet"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  check_same_results(scratch, "broken", "whole");
+  CHECK(json_of(scratch / "broken/run.json")["continued [s]"].size() == 2);
+}
+
+TEST_CASE("kill -9 at any moment leaves a checkpoint that goes on to the same bits", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("whole")).code == 0);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> seconds(0.01, 0.06);
+  const std::vector<std::string> often{"--checkpoint-every", "0"};
+  int killed = 0;
+  bool begun = false;
+  while (killed < 50) {
+    std::vector<std::string> words = run_words("broken", often);
+    if (begun) words = {"resume", "broken", "--quiet", "--checkpoint-every", "0"};
+    const Call call = call_and_signal_after(scratch.folder(), words, SIGKILL, seconds(random));
+    INFO(call.err);
+    if (call.code == 0) {  // it got to the end
+      check_same_results(scratch, "broken", "whole");
+      std::filesystem::remove_all(scratch / "broken");
+      begun = false;
+      continue;
+    }
+    REQUIRE(call.code == 128 + SIGKILL);
+    ++killed;
+    begun = std::filesystem::exists(scratch / "broken/checkpoint.talus");
+    if (!begun) std::filesystem::remove_all(scratch / "broken");
+  }
+  if (!begun) return;
+  REQUIRE(call_talus(scratch.folder(), {"resume", "broken", "--quiet"}).code == 0);
+  check_same_results(scratch, "broken", "whole");
+}
+
+TEST_CASE("a run that is stopped keeps its last good state", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--set", "/time/dt=0.1", "--set",
+                                                  "/output/history=0.1", "--set", "/time/end=20"});
+  REQUIRE(call.code == 4);
+  CHECK_THAT(call.err, Contains("the last good state was kept: out/small/checkpoint.talus"));
+  const double stopped = json_of(scratch / "out/small/run.json")["t [s]"];
+  const Call info = call_talus(scratch.folder(), {"info", "out/small"});
+  CHECK_THAT(info.out, Contains("written because the last good state; then "));
+  // It stops at the same place again.
+  const Call again = call_talus(scratch.folder(), {"resume", "out/small"});
+  CHECK(again.code == 4);
+  CHECK(json_of(scratch / "out/small/run.json")["t [s]"] == stopped);
+}
+
+TEST_CASE("doctor says which step was the first bad one and what to change", "[apps][doctor]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--set", "/time/dt=0.01", "--set",
+                                        "/output/history=0.01", "--set", "/time/end=20", "--no-report"})
+              .code == 4);
+  const Call call = call_talus(scratch.folder(), {"doctor", "out/small"});
+  INFO(call.out + call.err);
+  CHECK(call.code == 0);
+  CHECK_THAT(call.out, Contains("stopped at t = ") && Contains("again from the last good state") &&
+                           Contains("first bad step (->): t = ") && Contains("/time/dt is ") &&
+                           Contains("take \"auto\""));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/small/report.html"));
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "good", "--quiet"}).code == 0);
+  const Call good = call_talus(scratch.folder(), {"doctor", "good"});
+  CHECK(good.code == 0);
+  CHECK_THAT(good.out, Contains("finished at t = ") && Contains("the energy balance misses"));
+  CHECK(call_talus(scratch.folder(), {"doctor", "nowhere"}).code == 5);
+}
+
+TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0"})).code == 130);
+  Call call = call_talus(scratch.folder(), {"resume", "nowhere"});
+  CHECK(call.code == 5);
+  call = call_talus(scratch.folder(), {"resume", "small.json"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("'small.json' is no checkpoint of talus"));
+  std::string text = read_whole_file(scratch / "broken/checkpoint.talus");
+  write_whole_file(scratch / "broken/checkpoint.talus", text.substr(0, text.size() / 2));
+  call = call_talus(scratch.folder(), {"resume", "broken"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("is damaged"));
+  write_whole_file(scratch / "broken/checkpoint.talus", text);
+  std::filesystem::remove(scratch / "broken/history.csv");
+  call = call_talus(scratch.folder(), {"resume", "broken"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("history.csv") && Contains("is not what the run left"));
+  CHECK(call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "-1"}).code == 2);
+}

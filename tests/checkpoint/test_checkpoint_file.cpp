@@ -1,0 +1,83 @@
+#include "checkpoint/checkpoint.hpp"
+#include "output/input_error.hpp"
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Checkpoint some_checkpoint() {
+  Checkpoint checkpoint;
+  checkpoint.reason = "the run was interrupted";
+  checkpoint.scene_file = "/somewhere/scene.json";
+  checkpoint.scene_text = "{\n // Größe\n}";
+  checkpoint.overrides = {{"/time/end", "3"}};
+  checkpoint.plugin_folders = {"/a", "/b"};
+  checkpoint.libraries = {{"liblaw.so", "0123"}};
+  checkpoint.simd = SimdLevel::avx2;
+  checkpoint.threads = 2;
+  checkpoint.model_hash = "4567";
+  checkpoint.time = 0.1;
+  checkpoint.steps = 12;
+  checkpoint.continued = {0.05};
+  checkpoint.state = std::string("\0\n state \xff", 10);
+  return checkpoint;
+}
+
+}  // namespace
+
+TEST_CASE("A checkpoint is read as it was written", "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus";
+  const Checkpoint written = some_checkpoint();
+  write_checkpoint(file, written);
+  CHECK_FALSE(std::filesystem::exists(scratch.folder() / "checkpoint.talus.part"));
+  const Checkpoint read = read_checkpoint(file);
+  CHECK(read.reason == written.reason);
+  CHECK(read.scene_file == written.scene_file);
+  CHECK(read.scene_text == written.scene_text);
+  CHECK(read.overrides.at(0).pointer == "/time/end");
+  CHECK(read.overrides.at(0).value == "3");
+  CHECK(read.plugin_folders == written.plugin_folders);
+  CHECK(read.libraries.at(0).file == "liblaw.so");
+  CHECK(read.libraries.at(0).hash == "0123");
+  CHECK(read.simd == SimdLevel::avx2);
+  CHECK(read.threads == 2);
+  CHECK(read.model_hash == "4567");
+  CHECK(read.time == 0.1);
+  CHECK(read.steps == 12);
+  CHECK(read.continued == written.continued);
+  CHECK(read.state == written.state);
+}
+
+TEST_CASE("Any byte of a checkpoint that is lost or changed is noticed", "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus", spoilt = scratch.folder() / "spoilt.talus";
+  write_checkpoint(file, some_checkpoint());
+  const std::string whole = read_whole_file(file);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    CAPTURE(i);
+    write_whole_file(spoilt, whole.substr(0, i));
+    CHECK_THROWS_AS(read_checkpoint(spoilt), InputError);
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 4);
+    write_whole_file(spoilt, changed);
+    CHECK_THROWS_AS(read_checkpoint(spoilt), InputError);
+  }
+  write_whole_file(spoilt, whole + "x");
+  CHECK_THROWS_AS(read_checkpoint(spoilt), InputError);
+}
+
+TEST_CASE("A file that is no checkpoint, or one of another program, is refused in words", "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus";
+  write_whole_file(file, "t [s],a\n");
+  CHECK_THROWS_WITH(read_checkpoint(file), Contains("is no checkpoint of talus"));
+  write_whole_file(file, "talus checkpoint 7\n");
+  CHECK_THROWS_WITH(read_checkpoint(file), Contains("of another form"));
+  CHECK_THROWS_AS(read_checkpoint(scratch.folder() / "missing.talus"), std::system_error);
+}
