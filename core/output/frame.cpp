@@ -129,11 +129,28 @@ void FrameWriter::add(const Frame& frame) {
   write_whole_file(folder_ / contacts, vtu_text(contact_grid(frame), frame.time));
   entries_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, bodies);
   entries_ += fmt::format("<DataSet timestep=\"{}\" part=\"1\" file=\"{}\"/>\n", frame.time, contacts);
+  write_list();
+  ++count_;
+}
+
+std::uint64_t FrameWriter::bytes_of(const Frame& frame) {
+  FrameWriter writer;
+  return vtu_text(writer.body_grid(frame), frame.time).size() +
+         vtu_text(contact_grid(frame), frame.time).size();
+}
+
+void FrameWriter::write_list() const {
   write_whole_file(folder_ / "frames.pvd",
                    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                    "byte_order=\"LittleEndian\">\n<Collection>\n" +
                        entries_ + "</Collection>\n</VTKFile>\n");
-  ++count_;
+}
+
+void FrameWriter::exchange(Archive& archive) {
+  archive(count_);
+  archive(entries_);
+  archive(cells_);
+  if (archive.reading()) write_list();
 }
 
 }  // namespace talus

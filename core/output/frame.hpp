@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/archive.hpp"
 #include "output/vtu.hpp"
 #include "simulation/simulation.hpp"
 
@@ -34,12 +35,19 @@ class FrameWriter {
   explicit FrameWriter(const std::filesystem::path& folder);
 
   void add(const Frame& frame);
+  /// Size of the files of such a frame.
+  static std::uint64_t bytes_of(const Frame& frame);
+
+  /// What was written so far; taken out of an archive it is what the .pvd lists from now on.
+  void exchange(Archive& archive);
 
  private:
+  FrameWriter() = default;
+  void write_list() const;
   Grid body_grid(const Frame& frame);
 
   std::filesystem::path folder_;
-  std::size_t count_ = 0;
+  std::uint64_t count_ = 0;
   std::string entries_;  ///< DataSet lines of the .pvd
   /// [body][part][cell][corner], as in the first frame
   std::vector<std::vector<std::vector<std::vector<std::int64_t>>>> cells_;

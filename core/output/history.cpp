@@ -1,5 +1,6 @@
 #include "output/history.hpp"
 
+#include "output/input_error.hpp"
 #include "output/quantity.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,18 @@ std::vector<double> sample_monitors(const Simulation& simulation) {
   return values;
 }
 
+std::vector<std::string> energy_columns() {
+  std::vector<std::string> columns;
+  for (const LedgerEntry& entry : ledger_entries) columns.push_back(fmt::format("{} [J/m]", entry.name));
+  return columns;
+}
+
+std::vector<double> energies(const EnergyLedger& ledger) {
+  std::vector<double> values;
+  for (const LedgerEntry& entry : ledger_entries) values.push_back(ledger.*entry.value);
+  return values;
+}
+
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::span<const std::string> columns)
     : file_(file) {
   errno = 0;
@@ -39,6 +52,17 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::span<const 
   std::vector<std::string> fields{"t [s]"};
   fields.insert(fields.end(), columns.begin(), columns.end());
   write(csv_line(fields));
+}
+
+HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::uint64_t size)
+    : file_(file), size_(size) {
+  if (!std::filesystem::exists(file) || std::filesystem::file_size(file) < size) {
+    throw InputError(
+        fmt::format("'{}' is not what the run left: it should have {} bytes at least", file.string(), size));
+  }
+  std::filesystem::resize_file(file, size);
+  errno = 0;
+  stream_.open(file, std::ios::binary | std::ios::app);
 }
 
 void HistoryWriter::add(double time, std::span<const double> values) {
@@ -49,6 +73,7 @@ void HistoryWriter::add(double time, std::span<const double> values) {
 
 void HistoryWriter::write(const std::string& line) {
   stream_ << line << '\n' << std::flush;
+  size_ += line.size() + 1;
   if (!stream_) {
     const int reason = errno != 0 ? errno : EIO;
     throw std::system_error(reason, std::generic_category(),

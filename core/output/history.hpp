@@ -3,6 +3,7 @@
 #include "output/series.hpp"
 #include "simulation/simulation.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -17,19 +18,28 @@ std::vector<std::string> monitor_columns(const Scene& scene);
 /// Present values of these columns; positions with the scene's origin.
 std::vector<double> sample_monitors(const Simulation& simulation);
 
-/// history.csv: "t [s]" and the columns, numbers as short as they can be and still read back to the same
-/// bits. Each row is with the operating system when add() returns.
+/// Columns of energy.csv, J/m since t = 0, and their values.
+std::vector<std::string> energy_columns();
+std::vector<double> energies(const EnergyLedger& ledger);
+
+/// A file like history.csv: "t [s]" and the columns, numbers as short as they can be and still read back to
+/// the same bits. Each row is with the operating system when add() returns.
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& file, std::span<const std::string> columns);
+  /// Goes on after the first `size` bytes of a file that a writer left. Throws InputError if it is shorter.
+  HistoryWriter(const std::filesystem::path& file, std::uint64_t size);
 
   void add(double time, std::span<const double> values);
+
+  std::uint64_t size() const { return size_; }  ///< bytes written
 
  private:
   void write(const std::string& line);
 
   std::filesystem::path file_;
   std::ofstream stream_;
+  std::uint64_t size_ = 0;
 };
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "output/output_folder.hpp"
 
+#include "checkpoint/checkpoint.hpp"
 #include "output/input_error.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ bool is_frame(const fs::path& file) {
 std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const char* name :
-       {"history.csv", "resolved.json", "run.json", "frames.pvd", "compare.csv", "compare.json"}) {
+       {"history.csv", "resolved.json", "run.json", "frames.pvd", "energy.csv", "safety.csv", "safety.svg",
+        "report.html", "compare.csv", "compare.json", checkpoint_name}) {
     for (const char* ending : {"", ".part"}) {
       if (fs::exists(folder / (std::string(name) + ending)))
         found.push_back(folder / (std::string(name) + ending));

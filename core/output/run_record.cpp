@@ -1,10 +1,13 @@
 #include "output/run_record.hpp"
 
 #include "output/hash.hpp"
+#include "output/machine.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <thread>
 
 namespace talus {
 
@@ -73,17 +76,10 @@ Json cost_json(const RunResult& result) {
 }
 
 Json ledger_json(const EnergyLedger& ledger) {
-  return {{"kinetic [J/m]", ledger.kinetic},
-          {"strain [J/m]", ledger.strain},
-          {"contact [J/m]", ledger.contact},
-          {"friction_loss [J/m]", ledger.friction_loss},
-          {"contact_damping_loss [J/m]", ledger.contact_damping_loss},
-          {"global_damping_loss [J/m]", ledger.global_damping_loss},
-          {"material_loss [J/m]", ledger.material_loss},
-          {"sleep_loss [J/m]", ledger.sleep_loss},
-          {"external_work [J/m]", ledger.external_work},
-          {"residual [J/m]", ledger.residual},
-          {"throughput [J/m]", ledger.throughput}};
+  Json json;
+  for (const LedgerEntry& entry : ledger_entries)
+    json[fmt::format("{} [J/m]", entry.name)] = ledger.*entry.value;
+  return json;
 }
 
 Json sleep_json(const SleepReport& sleep) {
@@ -121,6 +117,13 @@ std::vector<UsedLibrary> used_libraries(const Scene& scene) {
   return used;
 }
 
+std::vector<Checkpoint::UsedLibrary> hashed_libraries(const Scene& scene) {
+  std::vector<Checkpoint::UsedLibrary> hashed;
+  for (const UsedLibrary& used : used_libraries(scene))
+    hashed.push_back({used.file.filename().string(), hash_of_file(used.file)});
+  return hashed;
+}
+
 std::string run_record(const Scene& scene, const RunOrder& order, const RunResult& result) {
   const RunSummary& summary = result.summary;
   std::vector<std::string> warnings = scene.warnings;
@@ -132,11 +135,14 @@ std::string run_record(const Scene& scene, const RunOrder& order, const RunResul
   record["end"] = name_of(result.end);
   if (result.end == RunEnd::stopped) record["trouble"] = result.trouble;
   record["t [s]"] = result.time;
+  if (order.from != nullptr) record["continued [s]"] = order.checkpoints->run.continued;
   record["scene"] = {{"file", scene.file}, {"title", scene.title}, {"xxh3_128", order.scene_hash}};
   record["plugins"] = libraries_json(scene);
   record["settings"] = settings_json(order, scene);
+  record["machine"] = {{"processor", processor_name()}, {"cores", std::thread::hardware_concurrency()}};
   record["bodies"] = scene.bodies.size();
   record["blocks"] = result.blocks;
+  record["elements"] = result.elements;
   record["steps"] = summary.steps;
   record["settle_steps"] = summary.settle_steps;
   record["pair_searches"] = summary.pair_searches;

@@ -18,6 +18,9 @@ struct UsedLibrary {
 /// In the order contact law, materials, covers, each library once.
 std::vector<UsedLibrary> used_libraries(const Scene& scene);
 
+/// The same for a checkpoint, to know them again.
+std::vector<Checkpoint::UsedLibrary> hashed_libraries(const Scene& scene);
+
 const char* name_of(RunEnd end);  ///< "finished" and so on
 
 /// Text of run.json: all that is needed to say how a result came about.

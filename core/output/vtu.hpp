@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,6 +32,15 @@ struct Grid {
 /// A .vtu file: inline binary, base64 over zlib. ParaView 5.11 cannot open the appended form, this one opens
 /// everywhere.
 std::string vtu_text(const Grid& grid, double time);
+
+/// Reads what vtu_text() wrote: points, cells and data. Throws InputError, without a name for the file.
+Grid read_vtu_text(std::string_view text);
+
+/// The array of that name, or nullptr.
+const GridArray* find_array(const std::vector<GridArray>& arrays, std::string_view name);
+
+/// Bytes in the letters of base64, with = at the end where they do not come out even.
+void append_base64(std::string& text, const unsigned char* bytes, std::size_t size);
 
 /// The inline form of an array: base64 of the block header (number of blocks, block size, size of a last
 /// block that is not full, compressed sizes; 64 bits each), then base64 of the compressed blocks.

@@ -1,0 +1,134 @@
+#include "preview/preview.hpp"
+
+#include "output/frame.hpp"
+#include "output/history.hpp"
+#include "output/stopwatch.hpp"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+void measure_edges(const Scene& scene, Preview& preview) {
+  preview.smallest_edge = std::numeric_limits<double>::infinity();
+  for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    const auto measure = [&](const Loop& loop) {
+      for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+        const Vec2 from = loop.vertices[i], to = loop.vertices[(i + 1) % loop.vertices.size()];
+        const double length = std::hypot(to.x - from.x, to.y - from.y);
+        if (!(length < preview.smallest_edge)) continue;
+        preview.smallest_edge = length;
+        preview.smallest_edge_body = body;
+      }
+    };
+    measure(scene.bodies[body].outer);
+    for (const Loop& hole : scene.bodies[body].holes) measure(hole);
+  }
+}
+
+void look_at_start(const Simulation& simulation, Preview& preview) {
+  preview.pairs = simulation.pair_count();
+  for (const Contact& contact : simulation.contacts()) {
+    ++preview.contacts;
+    if (!(contact.penetration > preview.overlap)) continue;
+    preview.overlap = contact.penetration;
+    preview.overlap_a = contact.body_a;
+    preview.overlap_b = contact.body_b;
+  }
+}
+
+/// The first step is left out: it is the one that makes room for all others.
+void try_steps(Simulation& simulation, double seconds, Preview& preview) {
+  std::optional<Stopwatch> watch;
+  std::uint64_t first = 0;
+  const auto enough = [&] {
+    if (watch) return watch->elapsed().wall > seconds;
+    watch.emplace(CpuClock::process);
+    first = simulation.summary().steps;
+    return false;
+  };
+  try {
+    while (!(watch && enough()) && simulation.advance(enough)) {
+    }
+  } catch (const NumericalTrouble&) {  // without the settle stage that the scene may count on
+  }
+  preview.trial_seconds = watch ? watch->elapsed().wall : 0;
+  preview.trial_steps = simulation.summary().steps - first;
+}
+
+std::uint64_t row_bytes(double time, const std::vector<double>& values) {
+  std::uint64_t bytes = fmt::formatted_size("{}", time) + 1;
+  for (const double value : values) bytes += fmt::formatted_size(",{}", value);
+  return bytes;
+}
+
+/// Rows, frames, and what they come to. Returns what writing a frame takes, s.
+double measure_output(const Simulation& simulation, Preview& preview) {
+  const Scene& scene = simulation.scene();
+  const auto count = [&](double interval) {
+    return 1 + static_cast<std::uint64_t>(std::ceil(scene.time.end / interval * (1 - 1e-12)));
+  };
+  preview.rows = count(scene.output.history);
+  preview.frames = scene.output.frames ? count(*scene.output.frames) : 0;
+  // A third of an interval has as many digits as most times.
+  preview.bytes = preview.rows * (row_bytes(scene.output.history / 3, sample_monitors(simulation)) +
+                                  row_bytes(scene.output.history / 3, energies(simulation.ledger())));
+  if (preview.frames == 0) return 0;
+  const Stopwatch watch(CpuClock::process);
+  preview.bytes += preview.frames * FrameWriter::bytes_of(sample_frame(simulation));
+  return watch.elapsed().wall;
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+Preview preview(Simulation& simulation, double trial_seconds) {
+  const Scene& scene = simulation.scene();
+  Preview preview;
+  measure_edges(scene, preview);
+  compare_stiffness(simulation, preview);
+  bool stops = false;
+  try {
+    simulation.advance();
+  } catch (const NumericalTrouble& trouble) {
+    stops = true;
+    preview.warnings.push_back(fmt::format(
+        "{}: {}", scene.settle ? "it stops at t = 0 if settling does not help" : "it stops at t = 0",
+        trouble.what()));
+  }
+  look_at_start(simulation, preview);
+  const RunSummary summary = simulation.summary();
+  preview.dt = summary.dt;
+  preview.dt_limiter = summary.dt_limiter;
+  preview.steps = std::max(1.0, std::ceil(scene.time.end / preview.dt));
+  // Without rows of the history to meet on the way.
+  const double unhindered =
+      scene.time.dt.value_or(automatic_step(simulation.present_bound(), scene.time.safety));
+  if (scene.settle) preview.settle_steps = std::max(1.0, std::ceil(scene.settle->duration / unhindered));
+  preview.warnings.insert(preview.warnings.end(), summary.warnings.begin(), summary.warnings.end());
+  const std::vector<std::string> raised = review(scene, unhindered);
+  preview.warnings.insert(preview.warnings.end(), raised.begin(), raised.end());
+  if (!stops) try_steps(simulation, trial_seconds, preview);
+  simulation.look_now();
+  const double frame_seconds = measure_output(simulation, preview);
+  preview.estimated_seconds = static_cast<double>(preview.frames) * frame_seconds;
+  if (preview.trial_steps > 0) {
+    preview.estimated_seconds += (preview.steps + preview.settle_steps) * preview.trial_seconds /
+                                 static_cast<double>(preview.trial_steps);
+  }
+  preview.memory = peak_memory();
+  return preview;
+}
+
+}  // namespace talus

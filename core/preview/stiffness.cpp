@@ -1,0 +1,66 @@
+#include "preview/preview.hpp"
+#include "scene/components.hpp"
+#include "scene/surfaces.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <string_view>
+
+namespace talus {
+namespace {
+
+/// Where a table holds the key.
+std::optional<std::size_t> position_of(std::span<const Parameter> parameters, std::string_view key) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].key == key) return i;
+  }
+  return std::nullopt;
+}
+
+/// E of a body that deforms, if its material goes by that name.
+std::optional<double> young_of(const Scene& scene, const SceneBody& body) {
+  const Choice& model = scene.materials[body.material].model;
+  if (body.fixed || model.component == nullptr ||
+      std::string_view(body.cover.component->component->name) == rigid_cover)
+    return std::nullopt;
+  const Component& component = *model.component->component;
+  const auto young = position_of({component.parameters, component.parameter_count}, "young_modulus");
+  return young ? std::optional(model.values[*young]) : std::nullopt;
+}
+
+std::set<std::uint32_t> classes_of_boundary(const SceneBody& body) {
+  std::set<std::uint32_t> classes(body.outer.surface_class.begin(), body.outer.surface_class.end());
+  for (const Loop& hole : body.holes) classes.insert(hole.surface_class.begin(), hole.surface_class.end());
+  for (const Discontinuity& cut : body.discontinuities) classes.insert(cut.surface_class);
+  return classes;
+}
+
+}  // namespace
+
+void compare_stiffness(const Simulation& simulation, Preview& preview) {
+  const Scene& scene = simulation.scene();
+  if (scene.contact.component == nullptr) return;
+  const Component& law = *scene.contact.component->component;
+  const auto stiffness =
+      position_of({law.interface_parameters, law.interface_parameter_count}, "normal_stiffness");
+  if (!stiffness) return;
+  const std::size_t count = scene.surfaces.size();
+  const std::vector<bool> meet = meetings(scene);
+  for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    const std::optional<double> young = young_of(scene, scene.bodies[body]);
+    if (!young) continue;
+    for (const std::uint32_t own : classes_of_boundary(scene.bodies[body])) {
+      for (std::size_t other = 0; other < count; ++other) {
+        if (!meet[own * count + other]) continue;
+        const std::size_t row = scene.interface_row[own * count + other];
+        const StiffnessShare share{row, body, scene.interface_values[row][*stiffness], *young,
+                                   simulation.body_width(body)};
+        if (!preview.softest || share.share() < preview.softest->share()) preview.softest = share;
+        if (!preview.stiffest || share.share() > preview.stiffest->share()) preview.stiffest = share;
+      }
+    }
+  }
+}
+
+}  // namespace talus

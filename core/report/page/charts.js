@@ -1,0 +1,249 @@
+/** {monitor, quantity, unit} of "monitor.quantity [unit]". */
+function parsed(name) {
+  const [, monitor, quantity, unit] = /^(.*)\.([^.]+) \[(.*)\]$/.exec(name) || [null, '', name, ''];
+  return {monitor, quantity, unit};
+}
+
+/** Index of the last entry not after `time`. */
+function before(times, time) {
+  let low = 0,
+    high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+function interpolated(times, values, time) {
+  if (!times.length || time < times[0] || time > times[times.length - 1]) return null;
+  const i = before(times, time);
+  if (i + 1 >= times.length || times[i] === time) return values[i];
+  if (values[i] === null || values[i + 1] === null) return null;
+  return values[i] + ((values[i + 1] - values[i]) * (time - times[i])) / (times[i + 1] - times[i]);
+}
+
+/** Rows over all times that any of the curves has. */
+function merged(curves) {
+  const rows = new Map();
+  curves.forEach((curve, column) =>
+    curve.time.forEach((time, i) => {
+      if (!rows.has(time)) rows.set(time, new Array(curves.length + 1).fill(null));
+      rows.get(time)[column + 1] = curve.values[i];
+    }),
+  );
+  return [...rows.entries()]
+    .sort((p, q) => p[0] - q[0])
+    .map(([time, row]) => {
+      row[0] = time;
+      return row;
+    });
+}
+
+const charts = [];
+
+/** A card with a chart of curves {label, colour, stroke, time, values}; `choice` offers other sets of curves. */
+function addChart(title, unit, curves, choice = null) {
+  const small = element('small', {}, unit ? ` ${unit}` : '');
+  const heading = element('h2', {}, title, small);
+  const area = element('div', {class: 'chart'}),
+    legend = element('div', {class: 'chart-legend'});
+  byId('charts').append(element('section', {class: 'card', 'data-chart': title}, heading, area, legend));
+  const chart = {graph: null, rows: []};
+  const show = (shown) => {
+    chart.rows = merged(shown);
+    if (!chart.rows.length) return;
+    const options = {
+      file: chart.rows,
+      labels: ['t', ...shown.map((curve) => curve.label)],
+      colors: shown.map((curve) => css(curve.colour)),
+      series: Object.fromEntries(shown.map((curve) => [curve.label, {strokePattern: curve.stroke || null}])),
+    };
+    if (chart.graph) {
+      chart.graph.updateOptions(options);
+      return;
+    }
+    chart.graph = new Dygraph(area, chart.rows, {
+      ...options,
+      connectSeparatedPoints: true,
+      strokeWidth: 1.5,
+      xlabel: 't [s]',
+      xLabelHeight: 16,
+      axisLabelWidth: 62,
+      legend: 'always',
+      labelsDiv: legend,
+      legendFormatter: (state) => legendOf(state),
+      gridLineColor: css('--line'),
+      axisLineColor: css('--line'),
+      axes: {
+        y: {axisLabelFormatter: (value) => number(value, 4)},
+        x: {axisLabelFormatter: (value) => number(value, 4)},
+      },
+      highlightCircleSize: 3.5,
+      highlightCallback: (event, time) => setTime(time, chart),
+    });
+  };
+  if (choice) {
+    const select = element('select', {'aria-label': `${title}: of what`});
+    choice.names.forEach((name, i) => select.append(element('option', {value: i}, name)));
+    select.addEventListener('change', () => {
+      const of = choice.curves(+select.value);
+      small.textContent = ` ${of.unit}`;
+      show(of.curves);
+    });
+    heading.append(' ', select);
+  }
+  charts.push(chart);
+  show(curves);
+}
+
+function legendOf(state) {
+  const shown = state.series.filter((series) => series.isVisible);
+  const words = shown.map(
+    (series) =>
+      `<span><i class="swatch" style="background:${series.color}"></i>${series.labelHTML}` +
+      (state.x === undefined || series.y === undefined || series.y === null
+        ? ''
+        : ` <b>${number(series.y, 5)}</b>`) +
+      '</span>',
+  );
+  return (state.x === undefined ? '' : `<span>t <b>${number(state.x, 5)} s</b></span>`) + words.join('');
+}
+
+function monitorCharts() {
+  const groups = new Map();
+  runs.forEach(
+    (run, index) =>
+      run.history &&
+      run.history.names.forEach((name, column) => {
+        const {monitor, quantity, unit} = parsed(name);
+        if (!groups.has(quantity)) groups.set(quantity, {unit, curves: [], monitors: []});
+        const group = groups.get(quantity);
+        if (!group.monitors.includes(monitor)) group.monitors.push(monitor);
+        group.curves.push({
+          label: comparison ? `${run.label} ${monitor}` : monitor,
+          colour: '--run' + ((comparison ? index : group.monitors.indexOf(monitor)) % 6),
+          stroke: comparison ? strokes[group.monitors.indexOf(monitor) % strokes.length] : null,
+          time: run.history.time,
+          values: run.history.values[column],
+        });
+      }),
+  );
+  if (data.reference)
+    data.reference.names.forEach((name, column) => {
+      const {monitor, quantity} = parsed(name);
+      if (groups.has(quantity))
+        groups
+          .get(quantity)
+          .curves.push({
+            label: `reference ${monitor}`,
+            colour: '--reference',
+            stroke: [3, 3],
+            time: data.reference.time,
+            values: data.reference.values[column],
+          });
+    });
+  const order = ['speed', 'displacement'];
+  const rank = (quantity) => (order.includes(quantity) ? order.indexOf(quantity) : order.length);
+  [...groups.entries()]
+    .sort((p, q) => rank(p[0]) - rank(q[0]))
+    .forEach(([quantity, group]) => addChart(quantity.replaceAll('_', ' '), `[${group.unit}]`, group.curves));
+}
+
+function deviationChart() {
+  if (!comparison || (runs.length < 2 && !data.reference)) return;
+  const names = runs[0].history.names;
+  const difference = (from, to, name, label, colour, stroke) => {
+    const p = from.names.indexOf(name),
+      q = to.names.indexOf(name);
+    if (p < 0 || q < 0) return [];
+    const values = from.time.map((time, i) => {
+      const other = interpolated(to.time, to.values[q], time);
+      return other === null || from.values[p][i] === null ? null : from.values[p][i] - other;
+    });
+    return [{label, colour, stroke, time: from.time, values}];
+  };
+  const of = (column) => ({
+    unit: `[${parsed(names[column]).unit}]`,
+    curves: runs.flatMap((run, i) => [
+      ...(i > 0
+        ? difference(
+            run.history,
+            runs[0].history,
+            names[column],
+            `${run.label} − ${runs[0].label}`,
+            '--run' + (i % 6),
+          )
+        : []),
+      ...(data.reference
+        ? difference(
+            run.history,
+            data.reference,
+            names[column],
+            `${run.label} − reference`,
+            '--run' + (i % 6),
+            [3, 3],
+          )
+        : []),
+    ]),
+  });
+  const first = Math.max(
+    0,
+    names.findIndex((name) => parsed(name).quantity === 'speed'),
+  );
+  const order = names.map((name, i) => i).sort((p, q) => (p === first ? -1 : q === first ? 1 : p - q));
+  const initial = of(order[0]);
+  addChart('deviation', initial.unit, initial.curves, {
+    names: order.map((i) => names[i]),
+    curves: (i) => of(order[i]),
+  });
+}
+
+function energyChart() {
+  const of = (index) => {
+    const energy = runs[index].energy;
+    const wanted = energy.names.filter(
+      (name, i) => !name.startsWith('throughput') && energy.values[i].some((value) => value !== 0),
+    );
+    return {
+      unit: '[J/m]',
+      curves: wanted.map((name, i) => ({
+        label: name.replace(' [J/m]', '').replaceAll('_', ' '),
+        colour: '--run' + (i % 6),
+        stroke: strokes[Math.floor(i / 6)],
+        time: energy.time,
+        values: energy.values[energy.names.indexOf(name)],
+      })),
+    };
+  };
+  const with_energy = runs.map((run, i) => i).filter((i) => runs[i].energy && of(i).curves.length);
+  if (!with_energy.length) return;
+  const initial = of(with_energy[0]);
+  addChart(
+    'energy',
+    initial.unit,
+    initial.curves,
+    with_energy.length > 1
+      ? {names: with_energy.map((i) => runs[i].label), curves: (i) => of(with_energy[i])}
+      : null,
+  );
+}
+
+function contactCharts() {
+  const curves = (keys) =>
+    runs.flatMap((run, index) =>
+      run.film.contacts
+        ? keys.map((key, k) => ({
+            label: comparison ? `${run.label} ${key}` : key,
+            colour: '--run' + ((comparison ? index : k) % 6),
+            stroke: comparison ? strokes[k] : null,
+            time: run.film.time,
+            values: run.film.contacts[key],
+          }))
+        : [],
+    );
+  if (!runs.some((run) => run.film.contacts && run.film.contacts.count.some((count) => count > 0))) return;
+  addChart('contact forces', '[N/m], sums of magnitudes', curves(['normal', 'tangential']));
+  addChart('contacts', '', curves(['count', 'slipping']));
+}

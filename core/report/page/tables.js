@@ -1,0 +1,167 @@
+function tiles() {
+  const add = (title, values, note) => {
+    const numbers = element('div', {class: 'numbers'});
+    values.forEach((value, index) =>
+      numbers.append(element('span', {style: `color:${runColour(index)}`}, number(value, 4))),
+    );
+    byId('tiles').append(element('div', {class: 'card tile'}, title, numbers, element('small', {}, note)));
+  };
+  const first =
+    (runs[0].history && runs[0].history.names.find((name) => parsed(name).quantity === 'speed')) || null;
+  const column = (run, name) => run.history.values[run.history.names.indexOf(name)];
+  if (first) {
+    const monitor = parsed(first).monitor;
+    add(
+      'Largest speed',
+      runs.map((run) => Math.max(...column(run, first))),
+      `m/s, ${monitor}`,
+    );
+    const along = (run, axis) => column(run, `${monitor}.u${axis} [m]`);
+    if (along(runs[0], 'x') && along(runs[0], 'y'))
+      add(
+        'Moved at the end',
+        runs.map((run) => Math.hypot(along(run, 'x').at(-1), along(run, 'y').at(-1))),
+        `m, ${monitor}`,
+      );
+  }
+  add(
+    'Time in the steps',
+    runs.map((run) => run.record.cost.stepping['cpu [s]']),
+    's of CPU',
+  );
+  add(
+    'Largest overlap',
+    runs.map((run) => run.record['largest_penetration [m]']),
+    'm',
+  );
+  add(
+    'Energy residual',
+    runs.map((run) => 100 * run.record.largest_residual_share),
+    '% of the throughput',
+  );
+}
+
+function deviationTable() {
+  if (!comparison || !Object.keys(comparison.deviations).length) return;
+  byId('deviations').hidden = false;
+  byId('deviations-legend').textContent =
+    `from ${runs[0].label}` +
+    (data.reference ? ' and from the reference' : '') +
+    '; the bar is RMS over the largest value';
+  const table = byId('deviation-table');
+  table.append(
+    element(
+      'tr',
+      {},
+      ...['', 'run', 'from', 'largest', 'at t [s]', 'RMS', 'at the end'].map((word) =>
+        element('th', {}, word),
+      ),
+    ),
+  );
+  for (const [name, of] of Object.entries(comparison.deviations)) {
+    const base = runs[0].history.values[runs[0].history.names.indexOf(name)] || [];
+    const size = Math.max(...base.map(Math.abs), 0);
+    for (const [run, against] of Object.entries(of))
+      for (const [from, entry] of Object.entries(against)) {
+        const bar = element('span', {
+          class: 'bar',
+          style: `width:${size > 0 ? Math.min(6, (6 * entry.rms) / size) : 0}em`,
+        });
+        table.append(
+          element(
+            'tr',
+            {},
+            ...[
+              name,
+              run,
+              from === 'from_baseline' ? runs[0].name : 'reference',
+              number(entry.largest),
+              number(entry['largest_at [s]']),
+            ].map((word) => element('td', {}, word)),
+            element('td', {}, bar, number(entry.rms)),
+            element('td', {}, number(entry.final)),
+          ),
+        );
+      }
+  }
+}
+
+function costChart() {
+  if (!comparison) return;
+  const names = Object.keys(comparison.deviations);
+  const name = names.find((each) => parsed(each).quantity === 'speed') || names[0];
+  if (!name) return;
+  const key = data.reference ? 'from_reference' : 'from_baseline';
+  const points = runs
+    .map((run, index) => {
+      const entry = (comparison.deviations[name][run.name] || {})[key];
+      return {
+        name: run.label,
+        index,
+        x: run.record.cost.stepping['cpu [s]'],
+        y: entry ? entry.rms : index === 0 && !data.reference ? 0 : null,
+      };
+    })
+    .filter((point) => point.y !== null);
+  if (points.length < 2) return;
+  byId('cost').hidden = false;
+  byId('cost-legend').textContent = `RMS of ${name} from ${data.reference ? 'the reference' : runs[0].label}`;
+  const [w, h, left, bottom] = [560, 260, 74, 40];
+  const nice = (top) => {
+    const power = 10 ** Math.floor(Math.log10(top));
+    return power * [1, 2, 2.5, 5, 10, 20].find((step) => step * power >= top * 1.05);
+  };
+  const topX = nice(Math.max(...points.map((point) => point.x), 1e-12)),
+    topY = nice(Math.max(...points.map((point) => point.y), 1e-12));
+  const sx = (x) => left + (x / topX) * (w - left - 20),
+    sy = (y) => h - bottom - (y / topY) * (h - bottom - 14);
+  const lines = [];
+  for (let i = 0; i <= 4; ++i) {
+    lines.push(
+      `<line x1="${sx(0)}" x2="${sx(topX)}" y1="${sy((topY * i) / 4)}" y2="${sy((topY * i) / 4)}" stroke="var(--line)"/>`,
+      `<text x="${left - 8}" y="${sy((topY * i) / 4) + 4}" text-anchor="end">${number((topY * i) / 4, 3)}</text>`,
+      `<text x="${sx((topX * i) / 4)}" y="${h - bottom + 18}" text-anchor="middle">${number((topX * i) / 4, 3)}</text>`,
+    );
+  }
+  const marks = points.map((point) => {
+    const right = point.x > 0.6 * topX;
+    const label = document.createElement('span');
+    label.textContent = point.name;
+    return (
+      `<circle cx="${sx(point.x)}" cy="${sy(point.y)}" r="6" fill="var(--run${point.index % 6})"/>` +
+      `<text x="${sx(point.x) + (right ? -11 : 11)}" y="${sy(point.y) + 4}" text-anchor="${right ? 'end' : 'start'}">${label.innerHTML}</text>`
+    );
+  });
+  byId('cost-chart').innerHTML =
+    `<svg viewBox="0 0 ${w} ${h}" role="img" aria-label="Cost against error">${lines.join('')}${marks.join('')}` +
+    `<text x="${(left + w) / 2}" y="${h - 4}" text-anchor="middle">CPU in the steps [s]</text></svg>`;
+}
+
+function provenance() {
+  const record = runs[0].record,
+    table = byId('provenance-table');
+  const add = (name, value) =>
+    table.append(element('tr', {}, element('td', {}, name), element('td', {}, value)));
+  add('scene', `${record.scene.file}, XXH3 ${record.scene.xxh3_128}`);
+  add('program', `talus ${record.talus}, ${record.settings.simd} instructions`);
+  const plugins = new Map(
+    runs.flatMap((run) => run.record.plugins.map((plugin) => [plugin.xxh3_128, plugin])),
+  );
+  for (const plugin of plugins.values())
+    add(
+      plugin.components.join(', '),
+      `${plugin.file} ${plugin.version} by ${plugin.author}, XXH3 ${plugin.xxh3_128}`,
+    );
+  if (record.machine) add('machine', `${record.machine.processor}, ${record.machine.cores} cores`);
+  for (const run of runs)
+    add(
+      comparison ? run.label : 'run',
+      `${run.record.steps} steps of at most ${number(run.record['dt [s]'], 6)} s (${run.record.dt_limiter}), state ${run.record.state_hash}`,
+    );
+  for (const run of runs)
+    for (const warning of run.record.warnings)
+      add('warning', comparison ? `${run.label}: ${warning}` : warning);
+  const thinned = Math.max(...runs.map((run) => (run.history ? run.history.every : 1)));
+  if (thinned > 1) add('curves', `one of every ${thinned} rows of history.csv`);
+  add('to repeat', element('code', {}, data.command));
+}

@@ -1,0 +1,218 @@
+#include "report/report.hpp"
+
+#include "output/escaped.hpp"
+#include "output/input_error.hpp"
+#include "output/series.hpp"
+#include "output/shell_word.hpp"
+#include "output/vtu.hpp"
+#include "output/whole_file.hpp"
+#include "report/assets.hpp"
+#include "report/film.hpp"
+#include "report/html_page.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_rows = 1500;  ///< of a curve on the page
+
+/// Six digits are more than a curve shows.
+Json short_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+Json short_numbers(const std::vector<double>& values, std::size_t every) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % every == 0 || i + 1 == values.size()) list.push_back(short_number(values[i]));
+  }
+  return list;
+}
+
+Json curves_of(const Series& series) {
+  const std::size_t every = (series.time.size() + most_rows - 1) / most_rows;
+  Json values = Json::array();
+  for (const std::vector<double>& column : series.values)
+    values.push_back(short_numbers(column, std::max<std::size_t>(every, 1)));
+  return {{"time", short_numbers(series.time, std::max<std::size_t>(every, 1))},
+          {"names", series.names},
+          {"values", values},
+          {"every", every}};
+}
+
+Json curves_in(const fs::path& file) {
+  return fs::exists(file) ? curves_of(read_series(file)) : Json(nullptr);
+}
+
+Json json_in(const fs::path& file) {
+  Json json = Json::parse(read_whole_file(file), nullptr, false);
+  if (json.is_discarded()) throw InputError(fmt::format("'{}' is no whole JSON", file.string()));
+  return json;
+}
+
+template <class Number>
+void append_bytes(std::string& bytes, const std::vector<Number>& numbers) {
+  bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+}
+
+std::string packed(const std::string& bytes) {
+  std::vector<unsigned char> deflated(compressBound(bytes.size()));
+  uLongf room = deflated.size();
+  if (compress2(deflated.data(), &room, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                Z_BEST_COMPRESSION) != Z_OK)
+    throw std::runtime_error("zlib could not compress the frames of a report");
+  std::string text;
+  append_base64(text, deflated.data(), room);
+  return text;
+}
+
+Json contacts_json(const Film& film) {
+  Json count = Json::array(), slipping = Json::array(), normal = Json::array(), tangential = Json::array();
+  for (const ContactSums& sums : film.contacts) {
+    count.push_back(sums.count);
+    slipping.push_back(sums.slipping);
+    normal.push_back(short_number(sums.normal));
+    tangential.push_back(short_number(sums.tangential));
+  }
+  return {{"count", count}, {"slipping", slipping}, {"normal", normal}, {"tangential", tangential}};
+}
+
+/// Shapes as numbers of fixed width, in the order the page takes them out; then the motion.
+Json film_json(const Film& film) {
+  if (film.time.empty()) return {{"frames", film.frames}, {"time", Json::array()}};
+  std::string bytes;
+  append_bytes(bytes, film.part_start);
+  append_bytes(bytes, film.part_body);
+  append_bytes(bytes, std::vector<float>(film.x.begin(), film.x.end()));
+  append_bytes(bytes, std::vector<float>(film.y.begin(), film.y.end()));
+  append_bytes(bytes, film.rigid);
+  bytes += film.motion;
+  return {{"frames", film.frames},
+          {"every", film.every},
+          {"time", short_numbers(film.time, 1)},
+          {"parts", film.part_body.size()},
+          {"corners", film.x.size()},
+          {"origin", {film.origin_x, film.origin_y}},
+          {"quantum", film.quantum},
+          {"speed", film.largest_speed},
+          {"shear", film.largest_shear},
+          {"contacts", contacts_json(film)},
+          {"bytes", packed(bytes)}};
+}
+
+/// Which bodies stand, and what they are called.
+Json bodies_json(const Json& resolved) {
+  Json list = Json::array();
+  if (!resolved.contains("bodies")) return list;
+  for (const Json& body : resolved["bodies"])
+    list.push_back({{"name", body.value("name", "")}, {"fixed", body.value("fixed", false)}});
+  return list;
+}
+
+Json monitors_json(const Json& resolved) {
+  return resolved.contains("monitors") ? resolved["monitors"] : Json::array();
+}
+
+Json run_json(const fs::path& folder, const std::string& name) {
+  const Json resolved = json_in(folder / "resolved.json");
+  return {{"name", name},
+          {"record", json_in(folder / "run.json")},
+          {"bodies", bodies_json(resolved)},
+          {"monitors", monitors_json(resolved)},
+          {"history", curves_in(folder / "history.csv")},
+          {"energy", curves_in(folder / "energy.csv")},
+          {"film", film_json(read_film(folder))}};
+}
+
+std::string settings_words(const Json& record, const std::string& but) {
+  std::string words;
+  for (const Json& change : record["settings"]["set"]) {
+    const std::string pointer = change["pointer"];
+    if (pointer != but) words += " --set " + shell_word(pointer + "=" + change["value"].get<std::string>());
+  }
+  return words;
+}
+
+std::string command_of(const Json& page) {
+  const Json& record = page["runs"][0]["record"];
+  const std::string scene = shell_word(record["scene"]["file"]);
+  if (page["comparison"].is_null()) return "talus run " + scene + settings_words(record, "");
+  const Json& comparison = page["comparison"];
+  std::string varied = comparison["varied"];
+  for (const Json& run : comparison["runs"])
+    varied += (varied.find('=') == std::string::npos ? '=' : ',') + run["value"].get<std::string>();
+  std::string command = "talus compare " + scene + " --vary " + shell_word(varied);
+  if (comparison.contains("reference"))
+    command += " --reference " + shell_word(comparison["reference"]["file"].get<std::string>());
+  return command + settings_words(record, comparison["varied"]);
+}
+
+Json page_json(const fs::path& folder) {
+  Json page{{"comparison", nullptr}, {"reference", nullptr}, {"runs", Json::array()}};
+  if (fs::exists(folder / "compare.json")) {
+    page["comparison"] = json_in(folder / "compare.json");
+    for (const Json& run : page["comparison"]["runs"])
+      page["runs"].push_back(run_json(folder / run["folder"].get<std::string>(), run["value"]));
+    if (page["comparison"].contains("reference"))
+      page["reference"] = curves_in(page["comparison"]["reference"]["file"].get<std::string>());
+  } else if (fs::exists(folder / "run.json")) {
+    const Json record = json_in(folder / "run.json");
+    page["runs"].push_back(run_json(folder, record["scene"].value("title", "")));
+  } else {
+    throw InputError(fmt::format("'{}' holds neither run.json nor compare.json: it is no folder of results",
+                                 folder.string()));
+  }
+  page["command"] = command_of(page);
+  return page;
+}
+
+/// JSON within a page must not end its element.
+std::string embedded(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  for (const char letter : text) {
+    if (letter == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += letter;
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string report_page(const fs::path& folder) {
+  const Json data = page_json(folder);
+  std::string title = data["runs"][0]["record"]["scene"].value("title", "");
+  if (title.empty()) title = data["runs"][0]["record"]["scene"].value("file", "talus");
+  std::string script = "'use strict';\n(async () => {\n";
+  for (const std::string_view part : {assets::words_js, assets::charts_js, assets::film_js, assets::stage_js,
+                                      assets::motion_js, assets::tables_js, assets::start_js})
+    script += part;
+  script += "})();\n";
+  return filled(assets::page_html, {{"title", escaped(title)},
+                                    {"chart style", assets::dygraph_css},
+                                    {"style", assets::page_css},
+                                    {"chart script", assets::dygraph_js},
+                                    {"script", script},
+                                    {"data", embedded(data)}});
+}
+
+void write_report(const fs::path& folder) {
+  write_whole_file(folder / "report.html", report_page(folder));
+}
+
+}  // namespace talus

@@ -1,0 +1,21 @@
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a picture replaces a file only where it is named", "[apps][view]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"view", "small.json"}).code == 0);
+  scratch.write("small.svg", "mine");
+  const Call call = call_talus(scratch.folder(), {"view", "small.json"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("'small.svg' is there already: give -o small.svg to replace it"));
+  CHECK(read_whole_file(scratch / "small.svg") == "mine");
+  REQUIRE(call_talus(scratch.folder(), {"view", "small.json", "-o", "small.svg"}).code == 0);
+  CHECK_THAT(read_whole_file(scratch / "small.svg"), Catch::StartsWith("<svg"));
+}

@@ -1,0 +1,161 @@
+#include "preview/preview.hpp"
+
+#include "apps/program.hpp"
+#include "output/scratch.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* elastic =
+    R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0.2)";
+
+/// Two blocks of an edge of 2 m, one on the other; the lower one is fixed.
+WorkingScene resting() {
+  WorkingScene text;
+  text.material = elastic;
+  text.cover = "block";
+  text.bodies = box("base", 0, 0, 2, 2, R"("fixed": true)") + "," + box("top", 0.5, 2, 1.5, 3);
+  text.gravity = "[0, -10]";
+  text.time = R"({"end": 0.1})";
+  text.output = R"({"history": 0.01, "frames": 0.05})";
+  return text;
+}
+
+Scene monitored(const WorkingScene& text) {
+  Scene scene = text.read();
+  scene.monitors.push_back({"m", 0, std::nullopt, {"uy"}});
+  return scene;
+}
+
+Preview of(const WorkingScene& text) {
+  Simulation simulation(monitored(text), {});
+  return preview(simulation, 0.01);
+}
+
+bool warned(const WorkingScene& text, const std::string& words) {
+  for (const std::string& warning : of(text).warnings) {
+    if (warning.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("A preview counts what a run will do", "[preview]") {
+  const Preview foreseen = of(resting());
+  CHECK(foreseen.smallest_edge == 1);
+  CHECK(foreseen.smallest_edge_body == 1);
+  CHECK(foreseen.pairs == 1);
+  CHECK(foreseen.rows == 11);
+  CHECK(foreseen.frames == 3);
+  CHECK(foreseen.bytes > 3 * 1000);
+  CHECK(foreseen.trial_steps > 0);
+  CHECK(foreseen.estimated_seconds > 0);
+  CHECK(foreseen.memory > 1'000'000);
+  CHECK(foreseen.settle_steps == 0);
+  CHECK(foreseen.warnings.empty());
+  Simulation simulation(resting().read(), {});
+  while (simulation.advance()) {
+  }
+  CHECK(static_cast<double>(simulation.summary().steps) == Approx(foreseen.steps).epsilon(0.01));
+}
+
+TEST_CASE("A preview compares the stiffness of interfaces with E/h", "[preview]") {
+  const Preview foreseen = of(resting());
+  REQUIRE(foreseen.softest);
+  CHECK(foreseen.softest->body == 1);
+  CHECK(foreseen.softest->young == 1e8);
+  CHECK(foreseen.softest->width == Approx(1));
+  CHECK(foreseen.softest->share() == Approx(foreseen.softest->stiffness / 1e8));
+  CHECK(foreseen.stiffest->share() == foreseen.softest->share());
+  WorkingScene rigid = resting();
+  rigid.cover = "rigid";
+  CHECK_FALSE(of(rigid).softest);
+}
+
+TEST_CASE("Overlaps at the start are told with their bodies", "[preview]") {
+  WorkingScene text = resting();
+  text.bodies = box("base", 0, 0, 2, 2, R"("fixed": true)") + "," + box("top", 0.5, 1.9999995, 1.5, 3);
+  const Preview foreseen = of(text);
+  CHECK(foreseen.contacts > 0);
+  CHECK(foreseen.overlap == Approx(5e-7).epsilon(0.01));
+  CHECK(foreseen.overlap_a == 0);
+  CHECK(foreseen.overlap_b == 1);
+}
+
+TEST_CASE("A scene that cannot take its first step is told so", "[preview]") {
+  WorkingScene text = resting();
+  text.bodies += "," + box("bullet", 10, 10, 11, 11, R"("velocity": [1e6, 0])");
+  text.time = R"({"end": 0.1, "dt": 1e-4})";
+  const Preview foreseen = of(text);
+  REQUIRE_FALSE(foreseen.warnings.empty());
+  CHECK_THAT(foreseen.warnings[0], Contains("it stops at t = 0: the step is too large for the speed"));
+  CHECK(foreseen.trial_steps == 0);
+}
+
+TEST_CASE("A reviewer asks about scenes in which nothing moves or nothing is seen", "[preview]") {
+  WorkingScene still = resting();
+  still.gravity = "[0, 0]";
+  CHECK(warned(still, "nothing moves: there is no gravity"));
+  still.rest += R"("stages": [{"name": "later", "from": 0.05, "set": {"/gravity": [0, -1]}}],)";
+  CHECK_FALSE(warned(still, "nothing moves"));
+  CHECK(review(resting().read(), 1e-4) ==
+        std::vector<std::string>{"there is no monitor: history.csv will hold the "
+                                 "time alone"});
+  WorkingScene fixed = resting();
+  fixed.bodies = box("top", 0, 0, 1, 1, R"("fixed": true)");
+  CHECK(warned(fixed, "every body is fixed"));
+}
+
+TEST_CASE("A reviewer asks about intervals that do not fit", "[preview]") {
+  WorkingScene text = resting();
+  text.output = R"({"history": 1e-6})";
+  CHECK(warned(text, "/output/history 1e-06 s is shorter than the step"));
+  text.output = R"({"history": 0.2})";
+  CHECK(warned(text, "less than one interval of /output/history"));
+  text.output = R"({"history": 0.01, "frames": 0.2})";
+  CHECK(warned(text, "less than one interval of /output/frames"));
+}
+
+TEST_CASE("A reviewer asks about bodies put to sleep in the air", "[preview]") {
+  WorkingScene text = resting();
+  text.rest += R"("sleep": {"acceleration": 20},)";
+  CHECK(warned(text, "/sleep/acceleration 20 m/s2 is not below gravity, 10 m/s2"));
+  text.rest = R"("sleep": {},)";
+  CHECK_FALSE(warned(text, "/sleep"));
+}
+
+TEST_CASE("A reviewer asks about discontinuities that cut nothing", "[preview]") {
+  WorkingScene text = resting();
+  const auto with_cut = [&](const char* points) {
+    text.bodies =
+        box("base", 0, 0, 2, 2, R"("fixed": true)") + "," +
+        box("top", 0.5, 2, 1.5, 3,
+            std::string(R"("cover": {"model": "hexagonal", "size": 0.3}, "discontinuities": [{"points": )") +
+                points + "}]");
+    return warned(text, "/bodies/1/discontinuities/0 cuts nothing of 'top'");
+  };
+  CHECK_FALSE(with_cut("[[0, 2.5], [2, 2.5]]"));
+  CHECK(with_cut("[[5, 5], [6, 6]]"));
+  CHECK(with_cut("[[1.0, 2.5], [1.01, 2.5]]"));
+}
+
+TEST_CASE("validate prints what a run would be", "[preview][apps]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"validate", "small.json"});
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("the smallest is 1 m, of 'slab'") &&
+                           Contains("1 candidate pairs, 0 contacts") && Contains("steps      about ") &&
+                           Contains("an estimate from ") && Contains(" of memory") &&
+                           Contains("21 rows every 0.01 s, 3 frames every 0.1 s") && !Contains("warning"));
+  CHECK(std::count(call.out.begin(), call.out.end(), '\n') <= 24);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+}
