@@ -1,0 +1,91 @@
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "scene/tables.hpp"
+#include "scene_options.hpp"
+#include "study_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace talus {
+
+namespace {
+
+namespace po = boost::program_options;
+
+double share_of(const Usage& usage, const std::string& text) {
+  if (text.empty()) throw UsageError(usage.command, "--error 1% is missing");
+  char* end = nullptr;
+  double share = std::strtod(text.c_str(), &end);
+  const std::string rest = end;
+  if (rest == "%") share /= 100;
+  if (!(share > 0) || (!rest.empty() && rest != "%"))
+    throw UsageError(usage.command, fmt::format("--error {}: give a share above 0, 1% or 0.01", text));
+  return share;
+}
+
+/// The time step as the scene states it, or the safety factor of the automatic one, by factors of two.
+StudyPlan steps_of(const Usage& usage, const po::variables_map& given) {
+  Registry registry = offered_registry(usage, given);
+  const Scene scene = read_scene_of(text_option(given, "SCENE"), registry, overrides_of(usage, given),
+                                    given.count("allow-plugins") != 0);
+  const double most = scene.contact.component == nullptr ? 1 : table::safety_with_contact;
+  Variation variation{scene.time.dt ? "/time/dt" : "/time/safety", {}};
+  for (const double factor : {4.0, 2.0, 1.0, 0.5, 0.25}) {
+    const double value = factor * scene.time.dt.value_or(scene.time.safety);
+    if (scene.time.dt || value <= most) variation.values.push_back(fmt::format("{:.6g}", value));
+  }
+  return grid({variation});
+}
+
+}  // namespace
+
+Usage usage_of_advise() {
+  Usage usage{"advise", "SCENE --error 1% [options]",
+              "Proposes the cheapest settings of a study whose error stays below a bound, as a line of "
+              "--set. The study is\n"
+              "that of --vary (see `talus study --help`); without it the time step is varied by its safety "
+              "factor. Errors\n"
+              "against the run with the most work say how far a run is from what the scene converges to, not "
+              "from nature.",
+              "SCENE",
+              "  talus advise scenes/collision.json --error 1%\n"
+              "  talus advise scenes/incline.json --error 0.1% --vary /time/safety=0.8,0.4,0.1 --reference "
+              "scenes/reference/incline_overlap_area.csv\n"};
+  usage.options.add_options()("error", po::value<std::string>()->value_name("SHARE"),
+                              "RMS error over the largest value: 1% or 0.01");
+  add_study_options(usage);
+  return usage;
+}
+
+int advise_command(const Words& words) {
+  const Usage usage = usage_of_advise();
+  const auto given = read_arguments(usage, words);
+  if (!given) return exit_code::ok;
+  const double error = share_of(usage, text_option(*given, "error"));
+  const StudyPlan plan = given->count("vary") != 0 ? plan_of(usage, *given) : steps_of(usage, *given);
+  const Study study = make_study(usage, *given, words, plan);
+  if (study.interrupted) {
+    fmt::print(stderr, "interrupted; the same words go on with the study in {}\n", study.folder.string());
+    return exit_code::interrupted;
+  }
+  fmt::print("{}\n", study_table(plan, study.runs, study.findings));
+  const auto best = cheapest_within(study.findings, study.runs, error);
+  if (!best) {
+    fmt::print("no run keeps {:.3g} %: vary more, or take finer values\n", 100 * error);
+    return exit_code::tolerance_broken;
+  }
+  fmt::print("for {:.3g} % take", 100 * error);
+  for (const Override& change : plan.overrides(plan.points[*best]))
+    fmt::print(" --set {}={}", change.pointer, change.value);
+  fmt::print("\nerror {:.3g} %, {:.3g} s of CPU", 100 * *study.findings.runs[*best].error,
+             study.runs[*best].cpu);
+  if (study.findings.reference)
+    fmt::print(", {:.3g} times less than the run it is measured against",
+               study.runs[*study.findings.reference].cpu / study.runs[*best].cpu);
+  fmt::print("\n");
+  return exit_code::ok;
+}
+
+}  // namespace talus

@@ -1,0 +1,139 @@
+#include "safety/safety.hpp"
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+#include "output/output_folder.hpp"
+#include "output/series.hpp"
+#include "output/whole_file.hpp"
+#include "picture/chart.hpp"
+#include "scene/nearest.hpp"
+#include "scene_options.hpp"
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace talus {
+
+namespace {
+
+namespace po = boost::program_options;
+
+std::vector<ReducedRun> by_factor(std::vector<ReducedRun> runs) {
+  std::sort(runs.begin(), runs.end(),
+            [](const ReducedRun& p, const ReducedRun& q) { return p.factor < q.factor; });
+  return runs;
+}
+
+std::string safety_csv(const Scene& scene, const Safety& safety) {
+  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],moving bodies\n";
+  for (const ReducedRun& run : by_factor(safety.runs)) {
+    std::string moving;
+    for (const std::size_t body : run.moving) moving += (moving.empty() ? "" : " ") + scene.bodies[body].name;
+    const std::string fields[] = {fmt::format("{}", run.factor),       run.collapsed ? "1" : "0",
+                                  fmt::format("{}", run.displacement), scene.bodies[run.body].name,
+                                  fmt::format("{}", run.kinetic),      moving};
+    text += csv_line(fields) + "\n";
+  }
+  return text;
+}
+
+std::string safety_svg(const Safety& safety) {
+  Curve curve{"largest displacement of a body", {}, {}, 0, ""};
+  for (const ReducedRun& run : by_factor(safety.runs)) {
+    if (!run.trouble.empty()) continue;
+    curve.x.push_back(run.factor);
+    curve.y.push_back(run.displacement);
+  }
+  const auto factor = safety.factor();
+  return chart_svg(factor ? fmt::format("factor of safety {:.3g}", *factor) : "strength reduction", "factor",
+                   "displacement [m]", {curve});
+}
+
+void say_result(const Scene& scene, const Safety& safety) {
+  if (const auto factor = safety.factor()) {
+    fmt::print("factor of safety {:.4g}: stands at {:.4g}, collapses at {:.4g}\n", *factor, *safety.stands,
+               *safety.falls);
+    const auto fallen = std::find_if(safety.runs.begin(), safety.runs.end(),
+                                     [&](const ReducedRun& run) { return run.factor == *safety.falls; });
+    std::vector<std::string> names;
+    for (const std::size_t body : fallen->moving) names.push_back(scene.bodies[body].name);
+    if (!names.empty()) fmt::print("moving on at {:.4g}: {}\n", fallen->factor, listed(names));
+  } else if (safety.falls) {
+    fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
+               1 / *safety.falls);
+  } else if (safety.stands) {
+    fmt::print("it stands even with its strength divided by {:.3g}\n", *safety.stands);
+  }
+}
+
+}  // namespace
+
+Usage usage_of_safety() {
+  Usage usage{
+      "safety", "SCENE [options]",
+      "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and "
+      "of\n"
+      "materials that have them, are divided by a factor until the scene collapses, by bisection, each time "
+      "from the\n"
+      "same settled geometry and for as long as the scene lasts. Writes safety.csv and safety.svg to a "
+      "folder:\n"
+      "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
+      "SCENE",
+      "  talus safety scenes/stick_31deg.json\n"
+      "  talus safety slope.json --tolerance 0.002 --set /time/end=5\n"};
+  usage.options.add_options()("tolerance", po::value<double>()->value_name("SHARE"),
+                              "how near the factor is to be found (default: 0.01)")(
+      "out", po::value<std::string>()->value_name("DIR"), "folder for the results")(
+      "overwrite", "replace results that the folder holds already")(
+      "threads", po::value<std::string>()->value_name("N"),
+      "threads to use (default: 1; same bits for any number)");
+  add_scene_options(usage);
+  return usage;
+}
+
+int safety_command(const Words& words) {
+  const Usage usage = usage_of_safety();
+  const auto given = read_arguments(usage, words);
+  if (!given) return exit_code::ok;
+  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
+  SafetySettings settings;
+  if (given->count("tolerance") != 0) settings.tolerance = (*given)["tolerance"].as<double>();
+  if (!(settings.tolerance >= 1e-6 && settings.tolerance < 1))
+    throw UsageError(usage.command,
+                     fmt::format("--tolerance {}: allowed are 1e-6 to less than 1", settings.tolerance));
+  settings.threads = threads_of(usage, *given, 1);
+  const std::string out = text_option(*given, "out");
+  const std::filesystem::path folder = out.empty()
+                                           ? std::filesystem::path("out") / (file.stem().string() + "-safety")
+                                           : std::filesystem::path(out);
+  Registry registry = offered_registry(usage, *given);
+  const Scene scene =
+      read_scene_of(file, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
+  for (const std::string& warning : scene.warnings) print_warning(warning);
+  if (!scene.stages.empty())
+    print_warning("the stages of the scene are left out: strength is reduced from the start");
+  if (!scene.settle)
+    print_warning("the scene has no settle stage: what it does to come to rest counts as motion");
+  prepare_output_folder(folder, given->count("overwrite") != 0);
+
+  const std::atomic<bool>* asked_to_stop = watch_for_interrupts();
+  settings.interrupted = [asked_to_stop] { return asked_to_stop->load(); };
+  fmt::print("{:>10}  {:<10}{:>18}  {:<20}{:>15}\n", "factor", "", "displacement [m]", "of", "kinetic [J/m]");
+  settings.tried = [&](const ReducedRun& run) {
+    fmt::print("{:>10.5g}  {:<10}{:>18.4g}  {:<20}{:>15.4g}\n", run.factor,
+               run.collapsed ? "collapses" : "stands", run.displacement, scene.bodies[run.body].name,
+               run.kinetic);
+    std::fflush(stdout);
+  };
+  const Safety safety = factor_of_safety(scene, settings);
+  write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
+  write_whole_file(folder / "safety.svg", safety_svg(safety));
+  say_result(scene, safety);
+  fmt::print("results in {}\n", folder.string());
+  return safety.interrupted ? exit_code::interrupted : exit_code::ok;
+}
+
+}  // namespace talus

@@ -1,0 +1,132 @@
+#include "study_options.hpp"
+
+#include "interrupt.hpp"
+#include "output/hash.hpp"
+#include "output/history.hpp"
+#include "output/input_error.hpp"
+#include "output/shell_word.hpp"
+#include "output/whole_file.hpp"
+#include "progress.hpp"
+#include "scene_options.hpp"
+#include "study/study_charts.hpp"
+#include "study/study_page.hpp"
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace talus {
+namespace {
+
+namespace po = boost::program_options;
+
+/// A column of the scene's monitors; the first speed, or the first of all, if none is named.
+std::string column_of(const Usage& usage, const po::variables_map& given, const Scene& scene) {
+  const std::vector<std::string> columns = monitor_columns(scene);
+  if (columns.empty())
+    throw InputError("the scene has no monitors, so there is nothing to measure errors of");
+  const std::string wanted = text_option(given, "metric");
+  for (const std::string& column : columns) {
+    const std::string name = column.substr(0, column.find(" ["));
+    if (wanted.empty() ? name.ends_with(".speed") : (column == wanted || name == wanted)) return column;
+  }
+  if (wanted.empty()) return columns[0];
+  throw UsageError(usage.command, fmt::format("--metric {}: the scene's monitors have '{}'", wanted,
+                                              fmt::join(columns, "', '")));
+}
+
+/// The line that was typed.
+std::string command_of(const Usage& usage, const std::vector<std::string>& words) {
+  std::string line = "talus " + usage.command;
+  for (const std::string& word : words) line += ' ' + shell_word(word);
+  return line;
+}
+
+}  // namespace
+
+void add_study_options(Usage& usage) {
+  usage.options.add_options()(
+      "vary", po::value<std::vector<std::string>>()->value_name("/pointer=a,b"),
+      "what varies; may be given several times; with --sample also a range, low:high")(
+      "sample", po::value<std::size_t>()->value_name("N"),
+      "a Latin hypercube of N runs instead of all combinations")(
+      "seed", po::value<std::uint64_t>()->value_name("S"), "of the sample (default: 1)")(
+      "reference", po::value<std::string>()->value_name("FILE.csv"),
+      "curve to measure errors from (default: the run that did the most work)")(
+      "metric", po::value<std::string>()->value_name("MONITOR.QUANTITY"),
+      "what errors are of (default: the first speed)")(
+      "out", po::value<std::string>()->value_name("DIR"),
+      "folder for the results (default: out/<scene name>-study)")(
+      "repeat", po::value<int>()->value_name("N")->default_value(1),
+      "make each run N times, all of them in turn, and take the median of their cost")(
+      "threads", po::value<std::string>()->value_name("N"),
+      "runs at a time, one thread each (default: one per core)");
+  add_scene_options(usage);
+  usage.options.add_options()("quiet,q", "no progress");
+}
+
+StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
+  std::vector<Variation> variations;
+  for (const std::string& text : list_option(given, "vary")) variations.push_back(parse_variation(text));
+  if (variations.empty()) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
+  if (given.count("sample") == 0) return grid(variations);
+  const std::uint64_t seed = given.count("seed") == 0 ? 1 : given["seed"].as<std::uint64_t>();
+  return latin_hypercube(variations, given["sample"].as<std::size_t>(), seed);
+}
+
+Study make_study(const Usage& usage, const po::variables_map& given, const std::vector<std::string>& words,
+                 const StudyPlan& plan) {
+  const std::filesystem::path file = text_option(given, "SCENE");
+  const std::string out = text_option(given, "out");
+  Study study;
+  study.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-study")
+                             : std::filesystem::path(out);
+  const bool allow_plugins = given.count("allow-plugins") != 0;
+
+  StudyOrder order;
+  order.folder = study.folder;
+  order.plan = plan;
+  order.overrides = overrides_of(usage, given);
+  order.scene_hash = hash_of_file(file);
+  order.threads =
+      threads_of(usage, given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  order.times = given["repeat"].as<int>();
+  if (order.times < 1 || order.times > 1000)
+    throw UsageError(usage.command, fmt::format("--repeat {}: allowed are 1 to 1000", order.times));
+  order.read = [&](const std::vector<Override>& overrides) {
+    HeldScene held{std::make_unique<Registry>(offered_registry(usage, given)), {}};
+    held.scene = read_scene_of(file, *held.registry, overrides, allow_plugins);
+    return held;
+  };
+  // A scene that is wrong by itself is told at once, and so is a metric that it has not.
+  const HeldScene plain = order.read(order.overrides);
+  for (const std::string& warning : plain.scene.warnings) print_warning(warning);
+  const std::string column = column_of(usage, given, plain.scene);
+  std::optional<Series> reference;
+  if (const std::string name = text_option(given, "reference"); !name.empty()) reference = read_series(name);
+  std::filesystem::create_directories(study.folder);
+
+  order.interrupted = watch_for_interrupts();
+  Progress progress({}, given.count("quiet") != 0);
+  order.progress = [&](std::size_t done, std::size_t all) {
+    progress.show(static_cast<double>(done) / static_cast<double>(all),
+                  fmt::format("{} of {} runs", done, all));
+  };
+  study.runs = make_runs(order);
+  progress.clear();
+  study.interrupted = *order.interrupted;
+  if (study.interrupted) return study;
+  study.findings = find_out(plan, study.runs, column, reference);
+  write_whole_file(study.folder / "study.csv", study_csv(plan, study.runs, study.findings));
+  write_whole_file(study.folder / "study.json", study_json(plan, study.runs, study.findings));
+  write_whole_file(study.folder / "study.svg", study_svg(plan, study.runs, study.findings));
+  const std::string& title = plain.scene.title.empty() ? file.filename().string() : plain.scene.title;
+  write_whole_file(study.folder / "study.html",
+                   study_page(title, command_of(usage, words), plan, study.runs, study.findings));
+  return study;
+}
+
+}  // namespace talus

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "simulation/simulation.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// The scene with tan φ, cohesion and tensile strength of all interfaces, and of materials that have them,
+/// divided by a factor. Without stages. Throws InputError where nothing could be reduced.
+Scene with_reduced_strength(const Scene& scene, double factor);
+
+/// How a scene fared with its strength divided by a factor.
+struct ReducedRun {
+  double factor = 1;
+  bool collapsed = false;
+  double displacement = 0;          ///< m, the largest of a body
+  std::size_t body = 0;             ///< that body
+  double kinetic = 0;               ///< J/m at the end
+  std::vector<std::size_t> moving;  ///< bodies that move on, where it collapsed
+  std::string trouble;              ///< what stopped it, if anything did
+};
+
+struct SafetySettings {
+  double tolerance = 0.01;  ///< share of the factor
+  double lowest = 0.1, highest = 20;
+  int threads = 1;
+  std::function<void(const ReducedRun&)> tried{};  ///< called after each
+  std::function<bool()> interrupted{};             ///< asked once per step
+};
+
+struct Safety {
+  std::optional<double> stands, falls;  ///< the largest factor that stood, the least that fell
+  std::vector<ReducedRun> runs;         ///< in the order in which they were made
+  bool interrupted = false;
+
+  std::optional<double> factor() const;  ///< of safety, between the two
+};
+
+/// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
+/// All runs start from the geometry that the scene settles into with its full strength, and last as long as
+/// the scene says. A body moves on if it moved by more than 1/1000 of its width, more than half of it in the
+/// second half of the time, and is no slower at the end than in the middle; the scene collapses if one does.
+Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
+
+}  // namespace talus

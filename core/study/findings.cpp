@@ -1,0 +1,150 @@
+#include "study/findings.hpp"
+
+#include "compare/deviation.hpp"
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+
+namespace talus {
+namespace {
+
+std::optional<std::size_t> most_work(const std::vector<StudyRun>& runs) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (finished(runs[i]) && (!best || runs[i].work > runs[*best].work)) best = i;
+  }
+  return best;
+}
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+void mark_front(const std::vector<StudyRun>& runs, std::vector<StudyFinding>& findings) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!findings[i].error) continue;
+    findings[i].on_front = true;
+    for (std::size_t j = 0; j < runs.size(); ++j) {
+      if (!findings[j].error) continue;
+      const bool no_worse = runs[j].cpu <= runs[i].cpu && *findings[j].error <= *findings[i].error;
+      const bool better = runs[j].cpu < runs[i].cpu || *findings[j].error < *findings[i].error;
+      if (no_worse && better) findings[i].on_front = false;
+    }
+  }
+}
+
+std::optional<double> number_in(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == 0 && value > 0 ? std::optional(value) : std::nullopt;
+}
+
+double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto count = static_cast<double>(x.size());
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count,
+               mean_y = std::accumulate(y.begin(), y.end(), 0.0) / count;
+  double across = 0, along = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    across += (x[i] - mean_x) * (y[i] - mean_y);
+    along += (x[i] - mean_x) * (x[i] - mean_x);
+  }
+  return across / along;
+}
+
+std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs,
+                                           const std::vector<StudyFinding>& findings) {
+  std::vector<ObservedOrder> orders;
+  for (const StudyFamily& family : families(plan, runs)) {
+    ObservedOrder order{{family.variation, {}}, {}};
+    std::vector<double> sizes, errors;
+    for (const std::size_t run : family.runs) {
+      if (!findings[run].error || !(*findings[run].error > 0)) continue;
+      order.runs.push_back(run);
+      sizes.push_back(std::log(number_of(plan, family.variation, run)));
+      errors.push_back(std::log(*findings[run].error));
+    }
+    if (order.runs.size() < 2) continue;
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i)
+      order.orders.push_back((errors[i] - errors[i + 1]) / (sizes[i] - sizes[i + 1]));
+    order.fit = fitted_slope(sizes, errors);
+    orders.push_back(std::move(order));
+  }
+  return orders;
+}
+
+}  // namespace
+
+std::vector<StudyFamily> families(const StudyPlan& plan, const std::vector<StudyRun>& runs) {
+  std::vector<StudyFamily> found;
+  for (std::size_t v = 0; v < plan.pointers.size(); ++v) {
+    std::map<std::vector<std::string>, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < plan.points.size(); ++i) {
+      std::vector<std::string> others = plan.points[i].values;
+      others[v].clear();
+      if (number_in(plan.points[i].values[v]) && finished(runs[i])) alike[others].push_back(i);
+    }
+    for (auto& [others, members] : alike) {
+      if (members.size() < 2) continue;
+      std::sort(members.begin(), members.end(),
+                [&](std::size_t p, std::size_t q) { return number_of(plan, v, p) > number_of(plan, v, q); });
+      found.push_back({v, members});
+    }
+  }
+  return found;
+}
+
+double number_of(const StudyPlan& plan, std::size_t variation, std::size_t run) {
+  return number_in(plan.points[run].values[variation]).value_or(0);
+}
+
+StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
+                       const std::optional<Series>& reference) {
+  StudyFindings findings;
+  findings.column = column;
+  findings.runs.resize(runs.size());
+  const std::optional<std::size_t> finest = most_work(runs);
+  if (!finest) throw InputError("no run of the study finished: there is nothing to measure");
+  if (!reference) findings.reference = finest;
+  const Series& due = reference ? *reference : runs[*finest].history;
+  const auto due_column = due.column(column);
+  if (!due_column) {
+    throw InputError(
+        fmt::format("the reference has no column '{}'; it has '{}'", column, fmt::join(due.names, "', '")));
+  }
+  const double scale = largest_magnitude(due.values[*due_column]);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!finished(runs[i]) || findings.reference == i) continue;
+    const auto own = runs[i].history.column(column);
+    if (!own) continue;
+    const auto found = deviation(runs[i].history, *own, due, *due_column);
+    if (!found || !std::isfinite(found->rms)) continue;
+    findings.runs[i].rms = found->rms;
+    findings.runs[i].largest = found->largest;
+    findings.runs[i].error = scale > 0 ? found->rms / scale : found->rms;
+  }
+  mark_front(runs, findings.runs);
+  findings.orders = observed_orders(plan, runs, findings.runs);
+  return findings;
+}
+
+std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,
+                                           double error) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!findings.runs[i].error || *findings.runs[i].error > error) continue;
+    if (!best || runs[i].cpu < runs[*best].cpu) best = i;
+  }
+  return best;
+}
+
+}  // namespace talus

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "study/study.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// What one run of a study costs and how far it is from the reference.
+struct StudyFinding {
+  std::optional<double>
+      error;  ///< RMS over the largest magnitude of the reference; none where the run failed
+  std::optional<double> rms, largest;  ///< in the unit of the column
+  bool on_front = false;               ///< no run is cheaper and nearer at once
+};
+
+/// Runs that differ in one number alone.
+struct StudyFamily {
+  std::size_t variation;
+  std::vector<std::size_t> runs;  ///< from the largest number to the smallest
+};
+
+/// Those of at least two that finished, variation after variation.
+std::vector<StudyFamily> families(const StudyPlan& plan, const std::vector<StudyRun>& runs);
+
+/// The number that a run of a family has.
+double number_of(const StudyPlan& plan, std::size_t variation, std::size_t run);
+
+/// Errors of a family, e ~ h^order.
+struct ObservedOrder : StudyFamily {
+  std::vector<double> orders;  ///< between neighbours in `runs`
+  double fit = 0;              ///< slope of log e over log h, by least squares
+};
+
+struct StudyFindings {
+  std::string column;                    ///< "<monitor>.<quantity> [unit]"
+  std::optional<std::size_t> reference;  ///< the run that the others are measured against; none: a file
+  std::vector<StudyFinding> runs;
+  std::vector<ObservedOrder> orders;
+};
+
+/// Of `column`, from `reference` or else from the run that finished with the most work. Throws InputError
+/// where the runs or the reference have no such column, or no run finished.
+StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
+                       const std::optional<Series>& reference);
+
+/// The cheapest run with at most this error, if there is one.
+std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,
+                                           double error);
+
+}  // namespace talus

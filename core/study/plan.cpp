@@ -1,0 +1,135 @@
+#include "study/plan.hpp"
+
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <optional>
+
+namespace talus {
+namespace {
+
+constexpr std::size_t most_points_of_study = 10000;
+constexpr double by_ratio = 10;  ///< of the ends of a range, from which on it is divided by ratios
+
+struct Span {
+  double low, high;
+
+  double at(double share) const {
+    if (low > 0 && high / low >= by_ratio) return low * std::pow(high / low, share);
+    return low + share * (high - low);
+  }
+};
+
+std::optional<Span> span_of(const Variation& variation) {
+  const std::size_t colon = variation.values[0].find(':');
+  if (variation.values.size() != 1 || colon == std::string::npos) return std::nullopt;
+  const std::string low = variation.values[0].substr(0, colon), high = variation.values[0].substr(colon + 1);
+  char *low_end = nullptr, *high_end = nullptr;
+  const Span span{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
+  const bool numbers = !low.empty() && !high.empty() && *low_end == 0 && *high_end == 0;
+  if (!numbers) return std::nullopt;
+  if (!(std::isfinite(span.low) && std::isfinite(span.high) && span.low < span.high)) {
+    throw InputError(fmt::format("--vary {}={}: a range is low:high, two numbers", variation.pointer,
+                                 variation.values[0]));
+  }
+  return span;
+}
+
+/// SplitMix64: the same numbers with every compiler.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next() {
+    state_ += 0x9E3779B97F4A7C15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  double share() { return static_cast<double>(next() >> 11) * 0x1p-53; }  ///< from 0, less than 1
+
+ private:
+  std::uint64_t state_;
+};
+
+std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);
+  return order;
+}
+
+StudyPlan empty_plan(const std::vector<Variation>& variations) {
+  StudyPlan plan;
+  for (const Variation& variation : variations) plan.pointers.push_back(variation.pointer);
+  return plan;
+}
+
+}  // namespace
+
+std::vector<Override> StudyPlan::overrides(const StudyPoint& point) const {
+  std::vector<Override> all;
+  for (std::size_t i = 0; i < pointers.size(); ++i) all.push_back({pointers[i], point.values[i]});
+  return all;
+}
+
+std::string StudyPlan::words(const StudyPoint& point) const {
+  std::string words;
+  for (std::size_t i = 0; i < pointers.size(); ++i) {
+    if (i > 0) words += ' ';
+    words += pointers[i].substr(pointers[i].rfind('/') + 1) + "=" + point.values[i];
+  }
+  return words;
+}
+
+StudyPlan grid(const std::vector<Variation>& variations) {
+  StudyPlan plan = empty_plan(variations);
+  std::size_t count = 1;
+  for (const Variation& variation : variations) {
+    if (span_of(variation))
+      throw InputError(
+          fmt::format("--vary {}={}: a range needs --sample N", variation.pointer, variation.values[0]));
+    count *= variation.values.size();
+    if (count > most_points_of_study)
+      throw InputError(fmt::format("the study would make more than {} runs: give fewer values, or --sample N",
+                                   most_points_of_study));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    StudyPoint& point = plan.points.emplace_back();
+    std::size_t rest = i, left = count;
+    for (const Variation& variation : variations) {
+      left /= variation.values.size();
+      point.values.push_back(variation.values[rest / left]);
+      rest %= left;
+    }
+  }
+  return plan;
+}
+
+StudyPlan latin_hypercube(const std::vector<Variation>& variations, std::size_t count, std::uint64_t seed) {
+  if (count < 1 || count > most_points_of_study)
+    throw InputError(fmt::format("--sample {}: allowed are 1 to {}", count, most_points_of_study));
+  StudyPlan plan = empty_plan(variations);
+  plan.points.resize(count);
+  Random random(seed);
+  for (const Variation& variation : variations) {
+    const std::optional<Span> span = span_of(variation);
+    const std::vector<std::size_t> strata = shuffled(count, random);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (span) {
+        const double share = (static_cast<double>(strata[i]) + random.share()) / static_cast<double>(count);
+        plan.points[i].values.push_back(fmt::format("{:.6g}", span->at(share)));
+      } else {
+        plan.points[i].values.push_back(variation.values[strata[i] * variation.values.size() / count]);
+      }
+    }
+  }
+  return plan;
+}
+
+}  // namespace talus

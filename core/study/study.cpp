@@ -1,0 +1,169 @@
+#include "study/study.hpp"
+
+#include "output/output_folder.hpp"
+#include "output/recorded_run.hpp"
+#include "output/whole_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json set_of(const std::vector<Override>& overrides) {
+  Json set = Json::array();
+  for (const Override& change : overrides)
+    set.push_back({{"pointer", change.pointer}, {"value", change.value}});
+  return set;
+}
+
+/// What the folder of a run tells, if it is the run that is asked for.
+StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
+                const std::string& scene_hash) {
+  StudyRun run;
+  run.folder = folder;
+  if (!std::filesystem::exists(folder / "run.json")) return run;
+  const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
+  if (!record.is_object() || record.value("talus", "") != TALUS_VERSION ||
+      record["scene"]["xxh3_128"] != scene_hash || record["settings"]["set"] != set_of(overrides) ||
+      record["end"] == "interrupted")
+    return run;
+  run.done = true;
+  run.end = record["end"];
+  run.trouble = record.value("trouble", "");
+  run.dt = record["dt [s]"];
+  const Json& cost = record["cost"];
+  run.cpu = cost["settling"]["cpu [s]"].get<double>() + cost["stepping"]["cpu [s]"].get<double>();
+  run.cpu_of_each = {run.cpu};
+  run.work = (record["settle_steps"].get<double>() + record["steps"].get<double>()) *
+             std::max(record["elements"].get<double>(), record["blocks"].get<double>());
+  run.residual =
+      record["largest_residual_share"].is_number() ? record["largest_residual_share"].get<double>() : 1.0;
+  run.penetration = record["largest_penetration [m]"];
+  run.history = read_series(folder / "history.csv");
+  return run;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+/// "run_0007", and "run_0007_2" for the second time.
+std::string folder_name(std::size_t run, int time) {
+  return time == 0 ? fmt::format("run_{:04}", run + 1) : fmt::format("run_{:04}_{}", run + 1, time + 1);
+}
+
+class Runs {
+ public:
+  explicit Runs(const StudyOrder& order)
+      : order_(order), runs_(order.plan.points.size()), problems_(order.plan.points.size()) {}
+
+  std::vector<StudyRun> make() {
+    {
+      std::vector<std::jthread> threads;
+      for (int i = 0; i < std::max(1, order_.threads); ++i) threads.emplace_back([this] { work(); });
+    }
+    for (const std::exception_ptr& problem : problems_) {
+      if (problem) std::rethrow_exception(problem);
+    }
+    for (StudyRun& run : runs_) {
+      if (!run.cpu_of_each.empty()) run.cpu = median(run.cpu_of_each);
+    }
+    return std::move(runs_);
+  }
+
+ private:
+  bool interrupted() const { return order_.interrupted != nullptr && *order_.interrupted; }
+
+  /// All runs once, then all once more: what disturbs the machine for a while disturbs one time of each.
+  void work() {
+    const std::size_t all = runs_.size() * static_cast<std::size_t>(std::max(1, order_.times));
+    for (std::size_t i = next_++; i < all && !interrupted(); i = next_++) {
+      const std::size_t number = i % runs_.size();
+      try {
+        take(number, run_of(number, static_cast<int>(i / runs_.size())));
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        problems_[number] = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      if (order_.progress) order_.progress(++done_, all);
+    }
+  }
+
+  /// What times of a run differ in is their cost.
+  void take(std::size_t number, StudyRun run) {
+    const std::lock_guard lock(mutex_);
+    std::vector<double> cpu = runs_[number].cpu_of_each;
+    cpu.insert(cpu.end(), run.cpu_of_each.begin(), run.cpu_of_each.end());
+    if (!runs_[number].done) runs_[number] = std::move(run);
+    runs_[number].cpu_of_each = std::move(cpu);
+  }
+
+  StudyRun run_of(std::size_t i, int time) {
+    RunOrder run;
+    run.folder = order_.folder / folder_name(i, time);
+    run.overrides = order_.overrides;
+    for (const Override& change : order_.plan.overrides(order_.plan.points[i]))
+      run.overrides.push_back(change);
+    run.scene_hash = order_.scene_hash;
+    run.clock = CpuClock::thread;
+    run.interrupted = order_.interrupted;
+    StudyRun made = run_in(run.folder, run.overrides, run.scene_hash);
+    if (made.done) return made;
+    try {
+      const HeldScene held = read(run.overrides);
+      prepare_output_folder(run.folder, true);
+      Simulation simulation(held.scene, run.settings);
+      record_run(simulation, run);
+    } catch (const SceneError& error) {
+      made.end = "refused";
+      made.trouble = error.mistakes.empty() ? error.what() : error.mistakes[0].text();
+      made.done = true;
+      return made;
+    }
+    return run_in(run.folder, run.overrides, run.scene_hash);
+  }
+
+  HeldScene read(const std::vector<Override>& overrides) {
+    const std::lock_guard lock(mutex_);
+    return order_.read(overrides);
+  }
+
+  const StudyOrder& order_;
+  std::vector<StudyRun> runs_;
+  std::vector<std::exception_ptr> problems_;
+  std::atomic<std::size_t> next_ = 0;
+  std::size_t done_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+std::vector<StudyRun> make_runs(const StudyOrder& order) {
+  return Runs(order).make();
+}
+
+bool finished(const StudyRun& run) {
+  return run.end == "finished";
+}
+
+std::vector<std::size_t> by_cost(const std::vector<StudyRun>& runs) {
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t p, std::size_t q) { return runs[p].cpu < runs[q].cpu; });
+  return order;
+}
+
+}  // namespace talus

@@ -1,0 +1,89 @@
+#include "apps/program.hpp"
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("A study runs every combination, lists what failed, and goes on where it was", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const std::vector<std::string> words{"study",
+                                       "small.json",
+                                       "--quiet",
+                                       "--vary",
+                                       "/contact/model=overlap_area,vertex_edge",
+                                       "--vary",
+                                       "/time/dt=2e-4,1e-4,5e-5,1e-2,-1"};
+  const Call call = call_talus(scratch.folder(), words);
+  INFO(call.out + call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("order in /time/dt") && Contains("failed: model=overlap_area dt=-1") &&
+                           Contains("failed: model=vertex_edge dt=1e-2"));
+  const auto study = json_of(scratch / "out/small-study/study.json");
+  REQUIRE(study["runs"].size() == 10);
+  CHECK(study["reference"] == "run_0003");
+  CHECK(study["runs"][0]["error [-]"].get<double>() > study["runs"][1]["error [-]"].get<double>());
+  CHECK_THAT(read_whole_file(scratch / "out/small-study/study.csv"), Contains("run_0010"));
+  CHECK_THAT(read_whole_file(scratch / "out/small-study/study.html"),
+             Contains("talus study small.json") && Contains("run_0010") && Contains("refused"));
+
+  // Of one run the folder is lost; the others are taken as they are.
+  const auto kept = std::filesystem::last_write_time(scratch / "out/small-study/run_0001/run.json");
+  std::filesystem::remove_all(scratch / "out/small-study/run_0002");
+  const Call again = call_talus(scratch.folder(), words);
+  REQUIRE(again.code == 0);
+  CHECK(std::filesystem::last_write_time(scratch / "out/small-study/run_0001/run.json") == kept);
+  CHECK(std::filesystem::exists(scratch / "out/small-study/run_0002/run.json"));
+  CHECK(json_of(scratch / "out/small-study/study.json")["runs"][1]["rms"] == study["runs"][1]["rms"]);
+}
+
+TEST_CASE("A study makes each run as often as it is asked to and takes the median of the cost",
+          "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"study", "small.json", "--quiet", "--vary",
+                                                  "/time/dt=2e-4,1e-4,-1", "--repeat", "3"});
+  INFO(call.out + call.err);
+  REQUIRE(call.code == 0);
+  const auto study = json_of(scratch / "out/small-study/study.json");
+  for (const std::size_t run : {0, 1}) {
+    std::vector<double> each = study["runs"][run]["cpu of each [s]"];
+    REQUIRE(each.size() == 3);
+    std::sort(each.begin(), each.end());
+    CHECK(study["runs"][run]["cpu [s]"] == each[1]);
+  }
+  CHECK(study["runs"][2]["end"] == "refused");
+  CHECK(json_of(scratch / "out/small-study/run_0001_3/run.json")["state_hash"] ==
+        json_of(scratch / "out/small-study/run_0001/run.json")["state_hash"]);
+  CHECK(call_talus(scratch.folder(), {"study", "small.json", "--vary", "/time/dt=1e-4", "--repeat", "0"})
+            .code == 2);
+}
+
+TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"advise", "small.json", "--error", "5%", "--quiet"});
+  INFO(call.out + call.err);
+  CHECK(call.code == 0);
+  CHECK_THAT(call.out, Contains("for 5 % take --set /time/safety="));
+  CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "1e-9%", "--quiet"}).code == 6);
+  CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
+  CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
+}
+
+TEST_CASE("A study refuses what it cannot measure", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  CHECK(call_talus(scratch.folder(), {"study", "small.json"}).code == 2);
+  const Call call = call_talus(
+      scratch.folder(), {"study", "small.json", "--vary", "/time/dt=1e-4", "--metric", "nobody.speed"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("block.speed [m/s]"));
+  CHECK(call_talus(scratch.folder(), {"study", "missing.json", "--vary", "/time/dt=1e-4"}).code == 5);
+}

@@ -1,0 +1,104 @@
+#include "safety/safety.hpp"
+
+#include "figures/runs.hpp"
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using namespace talus;
+using namespace talus::figures;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+double factor_of(const Scene& scene, double tolerance = 0.01) {
+  SafetySettings settings;
+  settings.tolerance = tolerance;
+  const Safety safety = factor_of_safety(scene, settings);
+  REQUIRE(safety.factor());
+  CHECK(*safety.falls - *safety.stands <= tolerance * *safety.stands);
+  return *safety.factor();
+}
+
+constexpr const char* rock_scene = R"({{"talus": 1, "gravity": [0, -9.81],
+  "materials": {{"rock": {{"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.2}}}},
+  "cover": {{"model": "block"}}, "contact": {{"model": "{0}"}},
+  "interfaces": [{{"between": ["*", "*"], "normal_stiffness": 1e10, "tangential_stiffness": 1e10, "friction_angle": {1},
+                  "normal_damping": 0.3, "tangential_damping": 0.3{2}}}],
+  "bodies": [{3}], "settle": {{"duration": 0.3, "damping": 20}}, "time": {{"end": 1}}}})";
+
+/// An upper block that slides down 40° and pushes a lower one along 10°; their common face is vertical, and
+/// below the upper block's toe there is room.
+std::string wedges() {
+  const double steep = std::tan(40 * degree), flat = std::tan(10 * degree);
+  return fmt::format(
+      R"({{"name": "base", "polygon": [[-4, -5], [6, -5], [6, {}], [0, -1], [0, 0], [-4, {}]], "material": "rock", "fixed": true}},
+         {{"name": "upper", "polygon": [[-3, {}], [0, 0], [0, 3], [-3, {}]], "material": "rock"}},
+         {{"name": "lower", "polygon": [[0, -1], [5, {}], [5, {}], [0, 3]], "material": "rock"}})",
+      -1 - 6 * flat, 4 * steep, 3 * steep, 3 * steep + 0.8, -1 - 5 * flat, 1 - 5 * flat);
+}
+
+/// Limit equilibrium: at what factor the thrust that the upper block gives is the one that the lower block
+/// bears, with friction tan 30°/F on both bases and on the face between them.
+double wedge_factor() {
+  const double steep = std::tan(40 * degree), flat = std::tan(10 * degree);
+  const double upper = 3 * (3 + 0.8) / 2, lower = 5 * (4 + 2) / 2;  // weights, over ρg
+  const double s1 = std::sin(40 * degree), c1 = std::cos(40 * degree), s2 = std::sin(10 * degree),
+               c2 = std::cos(10 * degree);
+  REQUIRE(steep > flat);
+  double low = 0.5, high = 4;
+  for (int i = 0; i < 60; ++i) {
+    const double factor = (low + high) / 2, m = std::tan(30 * degree) / factor;
+    const double given = upper * (s1 - m * c1) / (c1 + m * s1 + m * (s1 - m * c1));
+    const double borne = lower * (m * c2 - s2) / (c2 + m * s2 - m * (m * c2 - s2));
+    (given > borne ? high : low) = factor;
+  }
+  return low;
+}
+
+}  // namespace
+
+TEST_CASE("One block on an incline has the factor of safety tan φ / tan θ", "[safety]") {
+  for (const char* friction : {"31", "45"}) {
+    const Scene scene =
+        shipped("stick_31deg", {{"/interfaces/0/friction_angle", friction}, {"/time/end", "1"}});
+    CHECK(factor_of(scene) ==
+          Approx(std::tan(std::stod(friction) * degree) / std::tan(30 * degree)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("Two wedges have the factor of limit equilibrium", "[safety]") {
+  const Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", wedges()));
+  const double due = wedge_factor();
+  CHECK(due == Approx(1.8234).epsilon(1e-4));
+  CHECK(factor_of(scene) == Approx(due).epsilon(0.01));
+}
+
+TEST_CASE("What cannot stand, and what stands whatever is taken, are told apart", "[safety]") {
+  const Safety fallen = factor_of_safety(
+      shipped("stick_31deg", {{"/interfaces/0/friction_angle", "1"}, {"/time/end", "1"}}), {.lowest = 0.5});
+  CHECK_FALSE(fallen.stands);
+  CHECK(fallen.falls);
+  CHECK_FALSE(fallen.factor());
+  const std::string flat =
+      R"({"name": "base", "polygon": [[-4, -1], [4, -1], [4, 0], [-4, 0]], "material": "rock", "fixed": true},
+         {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})";
+  const Safety stood = factor_of_safety(
+      from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", flat)), {.highest = 3});
+  CHECK(stood.stands);
+  CHECK_FALSE(stood.falls);
+}
+
+TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {
+  const Scene scene = shipped("stick_31deg");
+  const Scene reduced = with_reduced_strength(scene, 2);
+  const std::size_t phi = 2;  // friction_angle of overlap_area
+  CHECK(std::tan(reduced.interface_values[0][phi]) == Approx(std::tan(scene.interface_values[0][phi]) / 2));
+  CHECK_THROWS_AS(with_reduced_strength(shipped("collision", {{"/interfaces/0/friction_angle", "0"}}), 2),
+                  InputError);
+}

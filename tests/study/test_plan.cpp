@@ -1,0 +1,47 @@
+#include "study/plan.hpp"
+
+#include "output/input_error.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <set>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("A grid holds all combinations, the last variation changing fastest", "[study]") {
+  const StudyPlan plan = grid({{"/a", {"1", "2"}}, {"/b", {"x", "y", "z"}}});
+  CHECK(plan.pointers == std::vector<std::string>{"/a", "/b"});
+  std::vector<std::string> points;
+  for (const StudyPoint& point : plan.points) points.push_back(point.values[0] + point.values[1]);
+  CHECK(points == std::vector<std::string>{"1x", "1y", "1z", "2x", "2y", "2z"});
+  const std::vector<Override> overrides = plan.overrides(plan.points[4]);
+  CHECK(overrides.at(1).pointer == "/b");
+  CHECK(overrides.at(1).value == "y");
+}
+
+TEST_CASE("A grid that is too large or has ranges is refused", "[study]") {
+  const std::vector<std::string> many(101, "1");
+  CHECK_THROWS_WITH(grid({{"/a", many}, {"/b", many}}), Contains("more than 10000 runs"));
+  CHECK_THROWS_WITH(grid({{"/a", {"1:2"}}}), Contains("--sample"));
+}
+
+TEST_CASE("A Latin hypercube meets each stratum once", "[study]") {
+  const std::size_t count = 8;
+  const StudyPlan plan =
+      latin_hypercube({{"/even", {"2:3"}}, {"/ratio", {"1e2:1e10"}}, {"/word", {"a", "b"}}}, count, 7);
+  std::set<int> even, ratio;
+  int words = 0;
+  for (const StudyPoint& point : plan.points) {
+    even.insert(static_cast<int>((std::stod(point.values[0]) - 2) * count));
+    ratio.insert(static_cast<int>(std::log10(std::stod(point.values[1])) - 2));
+    words += point.values[2] == "a" ? 1 : 0;
+  }
+  CHECK(even.size() == count);
+  CHECK(ratio.size() == count);
+  CHECK(words == 4);
+  CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 7).points[3].values[0] == plan.points[3].values[0]);
+  CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 8).points[3].values[0] != plan.points[3].values[0]);
+  CHECK_THROWS_AS(latin_hypercube({{"/even", {"3:2"}}}, count, 7), InputError);
+}
