@@ -1,4 +1,3 @@
-#include "figures/rectangle_mesh.hpp"
 #include "figures/runs.hpp"
 #include "output/scratch.hpp"
 

@@ -58,7 +58,7 @@ TEST_CASE("A step above the critical one stops with words that name what to chan
     const double critical = Simulation(scene, {}).critical_dt();
     scene.time.dt = share * critical;
     scene.output.history = 20 * *scene.time.dt;  // no output time makes the step smaller
-    const std::string words = trouble(scene);
+    const std::string words = trouble_of(scene);
     INFO(share << ": " << words);
     CHECK_THAT(words, Contains("step") && (Contains("smaller") || Contains("/time/dt below")));
     if (share < 1.5) CHECK_THAT(words, Contains("of the critical"));
@@ -68,7 +68,7 @@ TEST_CASE("A step above the critical one stops with words that name what to chan
 TEST_CASE("Too deep an overlap stops and names the pair and the stiffness", "[figures]") {
   Scene scene =
       from_text(block_and_base(0.1, R"(, "velocity": [0, -1000])", R"("time": {"end": 0.1, "dt": 1e-5})"));
-  const std::string words = trouble(scene);
+  const std::string words = trouble_of(scene);
   INFO(words);
   CHECK_THAT(words, Contains("too deep") && Contains("'block'") && Contains("'base'") &&
                         Contains("normal_stiffness"));
@@ -77,12 +77,12 @@ TEST_CASE("Too deep an overlap stops and names the pair and the stiffness", "[fi
 TEST_CASE("Too fast for a fixed step stops and says which step would do", "[figures]") {
   Scene scene =
       from_text(block_and_base(3, R"(, "velocity": [0, -1000])", R"("time": {"end": 0.1, "dt": 1e-3})"));
-  const std::string words = trouble(scene);
+  const std::string words = trouble_of(scene);
   INFO(words);
   CHECK_THAT(words, Contains("too large for the speed") && Contains("/time/dt") && Contains("auto"));
   scene.time.dt.reset();
   scene.time.end = 2e-3;  // before it arrives
-  CHECK(trouble(scene).empty());
+  CHECK(trouble_of(scene).empty());
 }
 
 TEST_CASE("A fast thin plate does not pass through another unseen", "[figures]") {
@@ -99,7 +99,7 @@ TEST_CASE("A fast thin plate does not pass through another unseen", "[figures]")
     ],
     "time": {"end": 0.001}
   })";
-  const std::string words = trouble(from_text(text));
+  const std::string words = trouble_of(from_text(text));
   INFO(words);
   CHECK_THAT(words, Contains("too deep"));
 }

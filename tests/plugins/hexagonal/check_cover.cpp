@@ -175,6 +175,7 @@ void check_steadied(const RecordedCover& cover, double size) {
 
 void check_cover(const DrawnBody& body, const RecordedCover& cover, double size, double snap) {
   REQUIRE(cover.refusal == "");
+  REQUIRE(!cover.rigid);
   check_elements(body, cover, size, snap);
   check_boundary(body, cover, size, snap);
   check_steadied(cover, size);

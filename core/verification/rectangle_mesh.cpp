@@ -1,10 +1,10 @@
-#include "figures/rectangle_mesh.hpp"
+#include "verification/rectangle_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace talus::figures {
+namespace talus::verification {
 
 std::string RectangleMesh::text() const {
   const auto node = [&](int i, int j) { return 1 + i + j * (columns + 1); };
@@ -48,4 +48,4 @@ std::string RectangleMesh::text() const {
       node(columns, rows), nodes, count, elements);
 }
 
-}  // namespace talus::figures
+}  // namespace talus::verification

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace talus::figures {
+namespace talus::verification {
 
 /// A rectangle of triangles with alternating diagonals, as a text file of Gmsh (MSH 2.2). Its sides are the
 /// groups "left", "right", "top" and "bottom".
@@ -16,4 +16,4 @@ struct RectangleMesh {
   std::string text() const;
 };
 
-}  // namespace talus::figures
+}  // namespace talus::verification
