@@ -1,0 +1,39 @@
+#include "limited.hpp"
+
+#include <fmt/format.h>
+
+namespace talus {
+
+namespace {
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::string all = fmt::format("'{}'", TALUS_PROGRAM);
+  for (const std::string& word : words) all += fmt::format(" '{}'", word);
+  return all;
+}
+
+Call shell(const std::filesystem::path& folder, const std::string& command) {
+  return call_program("/bin/sh", folder, {"-c", command});
+}
+
+}  // namespace
+
+Call call_within(const Limits& limits, const std::filesystem::path& folder,
+                 const std::vector<std::string>& words) {
+  std::string command;
+  // sh counts blocks of 512 bytes.
+  if (limits.file_kilobytes > 0) command += fmt::format("ulimit -f {}; ", 2 * limits.file_kilobytes);
+#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+  if (limits.memory_megabytes > 0) command += fmt::format("ulimit -v {}; ", 1024 * limits.memory_megabytes);
+#endif
+  if (limits.seconds > 0) command += fmt::format("ulimit -t {}; ", limits.seconds);
+  return shell(folder, command + "exec " + quoted(words));
+}
+
+Call call_into(const std::string& file, const std::filesystem::path& folder,
+               const std::vector<std::string>& words) {
+  // The shell's own redirection comes after that of call_program.
+  return shell(folder, fmt::format("exec {} > {}", quoted(words), file));
+}
+
+}  // namespace talus

@@ -1,0 +1,98 @@
+#include "limited.hpp"
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<std::string> run_words(const std::string& out) {
+  return {"run",   "small.json",   "--quiet", "--no-report",          "--out", out,
+          "--set", "/time/end=20", "--set",   "/output/history=0.02", "--set", "/output/frames=2"};
+}
+
+/// Files that are half written under the name of a whole one.
+bool has_parts(const std::filesystem::path& folder) {
+  const std::filesystem::recursive_directory_iterator all(folder);
+  return std::any_of(begin(all), end(all),
+                     [](const auto& entry) { return entry.path().extension() == ".part"; });
+}
+
+}  // namespace
+
+TEST_CASE("A run that the disk stops keeps a state, from which resume gives what one run gives", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("whole")).code == 0);
+  for (const int kilobytes : {8, 40, 100}) {
+    CAPTURE(kilobytes);
+    const std::string out = "full_" + std::to_string(kilobytes);
+    Call call = call_within({kilobytes, 0, 0}, scratch.folder(), run_words(out));
+    CHECK(call.code == 5);
+    CHECK_THAT(call.err, Contains("cannot write '" + out) && Contains("File too large") &&
+                             Contains("holds the state at t = ") && Contains("`talus resume` goes on"));
+    CHECK_FALSE(has_parts(scratch / out));
+    call = call_talus(scratch.folder(), {"resume", out, "--quiet", "--no-report"});
+    INFO(call.err);
+    REQUIRE(call.code == 0);
+    for (const char* file : {"history.csv", "energy.csv", "frames.pvd"})
+      CHECK(read_whole_file(scratch / out / file) == read_whole_file(scratch / "whole" / file));
+  }
+}
+
+TEST_CASE("A file that cannot be written whole is not there, nor a part of it", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_within({1, 0, 0}, scratch.folder(), run_words("full"));
+  CHECK(call.code == 5);
+  CHECK_THAT(call.err, Contains("cannot write 'full/resolved.json'") && Contains("File too large"));
+  CHECK(std::filesystem::is_empty(scratch / "full"));
+}
+
+TEST_CASE("What cannot be printed is an error", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"schema"},
+                                                {"validate", "small.json"},
+                                                {"run", "small.json", "--out", "out"}}) {
+    const Call call = call_into("/dev/full", scratch.folder(), words);
+    CAPTURE(words, call.err);
+    CHECK(call.code == 5);
+    CHECK_THAT(call.err, Contains("error: "));
+  }
+}
+
+TEST_CASE("A folder where nothing can be written is named", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  for (const char* folder : {"/proc/talus", "/dev/null/talus"}) {
+    const Call call = call_talus(scratch.folder(), {"run", "small.json", "--out", folder});
+    CHECK(call.code == 5);
+    CHECK_THAT(call.err, Contains(folder));
+  }
+}
+
+TEST_CASE("A file without an end is not read to its end", "[faults]") {
+  const Scratch scratch;
+  const Call call = call_within({0, 2000, 60}, scratch.folder(), {"validate", "/dev/zero"});
+  CHECK(call.code == 5);
+  CHECK_THAT(call.err, Contains("cannot read '/dev/zero'") && Contains("File too large"));
+}
+
+TEST_CASE("Results that are cut off or changed after a checkpoint are not continued", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  Call call = call_within({40, 0, 0}, scratch.folder(), run_words("full"));
+  REQUIRE(call.code == 5);
+  const std::filesystem::path history = scratch / "full/history.csv";
+  const std::string whole = read_whole_file(history);
+  write_whole_file(history, whole.substr(0, whole.size() / 2));
+  call = call_talus(scratch.folder(), {"resume", "full", "--quiet"});
+  CHECK((call.code == 2 || call.code == 5));
+  CHECK_THAT(call.err, Contains("history.csv"));
+}

@@ -1,0 +1,80 @@
+#include "targets.hpp"
+
+#include "checkpoint/archive.hpp"
+#include "checkpoint/checkpoint.hpp"
+#include "output/hash.hpp"
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace talus::fuzz {
+
+namespace {
+
+void take(std::string_view bytes) {
+  try {
+    Archive archive(talus::read_checkpoint_text(bytes, "checkpoint.talus").state);
+  } catch (const InputError&) {
+  }
+}
+
+/// Bytes as members of all kinds, in turn.
+void take_out(std::string_view bytes) {
+  Archive archive(bytes);
+  try {
+    while (!archive.at_end()) {
+      std::uint8_t kind = 0;
+      archive(kind);
+      double number = 0;
+      std::string text;
+      std::vector<double> numbers(3);
+      std::vector<std::string> texts;
+      std::vector<std::vector<std::uint32_t>> lists;
+      switch (kind % 6) {
+        case 0:
+          archive(number);
+          break;
+        case 1:
+          archive(text);
+          break;
+        case 2:
+          archive(numbers);
+          break;
+        case 3:
+          archive(texts);
+          break;
+        case 4:
+          archive(lists);
+          break;
+        default:
+          archive.of_known_size(numbers);
+      }
+    }
+  } catch (const InputError&) {
+  }
+}
+
+}  // namespace
+
+/// As they are, where length and hash refuse nearly all; with both put right; and as a state.
+void read_checkpoint(std::string_view bytes) {
+  take(bytes);
+  constexpr std::string_view first_line = "talus checkpoint 1\n";
+  std::string_view rest = bytes;
+  if (rest.starts_with(first_line)) {
+    rest.remove_prefix(first_line.size());
+    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+  }
+  constexpr std::size_t hash_digits = 32;
+  rest = rest.substr(0, rest.size() - std::min(rest.size(), hash_digits));
+  std::string right(first_line);
+  right += fmt::format("{}\n{}", rest.size() + hash_digits, rest);
+  right += hash_of_bytes(right);
+  take(right);
+  take_out(rest.substr(std::min(rest.find('\n'), rest.size())));
+}
+
+}  // namespace talus::fuzz
