@@ -22,7 +22,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGE, STORE = ROOT / "docs/benchmarks.md", ROOT / "docs/benchmarks.json"
-SECTIONS = ("machine", "steps", "interface", "setup", "programs", "peers")
+SECTIONS = ("machine", "steps", "threads", "interface", "setup", "programs", "peers")
 
 STEPS = "^(brick_wall/411/overlap_area|sliding|pile).*threads:[{}]"
 LARGE_STEPS = "^large/(sliding|pile).*threads:[{}]"
@@ -82,6 +82,28 @@ def measure_steps(binaries, arguments):
 
 def measure_interface(binaries, arguments):
     return google_benchmark(binaries / "talus_benchmarks", "^interface/", arguments.repetitions)
+
+
+THREADS = {"talus": "talus_benchmarks", "OpenMP": "talus_benchmarks_openmp", "oneTBB": "talus_benchmarks_onetbb"}
+SHARED = "^sliding/504/block/priority/threads:2|^large/sliding/50000/block/priority/threads:2"
+
+
+def measure_threads(binaries, arguments):
+    """The same steps with loops divided by three libraries, one after the other, round after round."""
+    present = {name: binaries / file for name, file in THREADS.items() if (binaries / file).exists()}
+    rounds = [
+        {name: google_benchmark(binary, SHARED, 1) for name, binary in present.items()} for _ in range(arguments.rounds)
+    ]
+    cases = {}
+    for case in rounds[0]["talus"]:
+        for name in present:
+            times = [each[name][case]["ns_per_block_step"] for each in rounds]
+            ratios = [each[name][case]["ns_per_block_step"] / each["talus"][case]["ns_per_block_step"] for each in rounds]
+            cases[f"{case} {name}"] = {
+                "ns_per_block_step": statistics.median(times),
+                "ratio": statistics.median(ratios),
+            }
+    return cases
 
 
 def measure_setup(binaries, arguments):
@@ -169,6 +191,21 @@ def show_steps(store):
     return table(heads, rows)
 
 
+def show_threads(store):
+    columns, cases = columns_of(store, "threads")
+    heads = ["case and who divides the loops"] + [f"ns per block and step, {column}" for column in columns]
+    heads += [f"ratio to talus, {column}" for column in columns]
+    return table(
+        heads,
+        [
+            [f"`{case.split()[0]}` {case.split()[1]}"]
+            + [number(get(store, column, "threads", case, "ns_per_block_step")) for column in columns]
+            + [number(get(store, column, "threads", case, "ratio")) for column in columns]
+            for case in cases
+        ],
+    )
+
+
 def show_interface(store):
     columns, cases = columns_of(store, "interface")
     parts = {
@@ -244,6 +281,7 @@ def rewrite(store):
     show = {
         "machine": show_machine,
         "steps": show_steps,
+        "threads": show_threads,
         "interface": show_interface,
         "setup": show_setup,
         "programs": show_programs,
@@ -264,7 +302,7 @@ def main():
     parser.add_argument("--only", default=",".join(SECTIONS), help="some of " + ", ".join(SECTIONS))
     parser.add_argument("--large", action="store_true", help="also cases that run for minutes")
     parser.add_argument("--repetitions", type=int, default=3, help="of the cases of Google Benchmark")
-    parser.add_argument("--rounds", type=int, default=3, help="of the comparison with peers")
+    parser.add_argument("--rounds", type=int, default=3, help="of the comparisons with peers and of threads")
     parser.add_argument("--threads", default="12", help="1 on a busy machine, where two threads tell nothing")
     parser.add_argument("--binaries", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/release/bin")
     parser.add_argument("--tables", action="store_true", help="measure nothing, write the tables")
