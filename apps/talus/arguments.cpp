@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <sstream>
 
 namespace talus {
@@ -32,9 +33,19 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
   all.add(usage.options);
   all.add_options()("help,h", "");
   po::positional_options_description positional;
-  if (!usage.argument.empty()) {
-    all.add_options()(usage.argument.c_str(), po::value<std::string>());
-    positional.add(usage.argument.c_str(), 1);
+  const bool optional = usage.argument.starts_with('[');
+  std::istringstream arguments(optional ? usage.argument.substr(1, usage.argument.size() - 2)
+                                        : usage.argument);
+  const std::vector<std::string> wanted{std::istream_iterator<std::string>(arguments), {}};
+  for (const std::string& argument : wanted) {
+    if (argument.ends_with("...")) {
+      const std::string name = argument.substr(0, argument.size() - 3);
+      all.add_options()(name.c_str(), po::value<std::vector<std::string>>());
+      positional.add(name.c_str(), -1);
+    } else {
+      all.add_options()(argument.c_str(), po::value<std::string>());
+      positional.add(argument.c_str(), 1);
+    }
   }
   const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
   po::variables_map given;
@@ -46,9 +57,9 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
     throw UsageError(usage.command,
                      fmt::format("unknown option '{}'{}", name, guess(name, option_names(usage.options))));
   } catch (const po::too_many_positional_options_error&) {
-    throw UsageError(usage.command, usage.argument.empty()
-                                        ? std::string("it takes options only")
-                                        : fmt::format("it takes one {} only", usage.argument));
+    throw UsageError(usage.command, usage.argument.empty() ? std::string("it takes options only")
+                                                           : fmt::format("it takes one {} only",
+                                                                         fmt::join(wanted, " and one ")));
   } catch (const po::error& problem) {
     throw UsageError(usage.command, problem.what());
   }
@@ -56,8 +67,9 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
     print_help(usage);
     return std::nullopt;
   }
-  if (!usage.argument.empty() && given.count(usage.argument) == 0) {
-    throw UsageError(usage.command, fmt::format("{} is missing", usage.argument));
+  for (const std::string& argument : wanted) {
+    if (!optional && given.count(argument) == 0)
+      throw UsageError(usage.command, fmt::format("{} is missing", argument));
   }
   return given;
 }

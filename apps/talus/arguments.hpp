@@ -22,7 +22,8 @@ struct Usage {
   std::string command;   ///< "run"
   std::string synopsis;  ///< "SCENE [options]"
   std::string sentence;  ///< what it does
-  std::string argument;  ///< name of the one thing that is given without an option, "" if none
+  std::string argument;  ///< names of what is given without an option, separated by spaces, "" if nothing; in
+                         ///< [] if it need not be given; one that ends in ... takes all that follow
   std::string examples;
   boost::program_options::options_description options{"Options"};
 };

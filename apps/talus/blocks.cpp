@@ -16,20 +16,6 @@ namespace {
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
-Usage usage_of_blocks() {
-  Usage usage{
-      "blocks", "SCENE [-o FILE] [options]",
-      "Writes the scene with every generator in \"blocks\" replaced by plain polygons in \"bodies\".\n"
-      "The result reads and runs as the scene itself does.",
-      "SCENE",
-      "  talus blocks scenes/vaiont.json -o scenes/vaiont_plain.json\n"
-      "  talus blocks scenes/vaiont.json --set /blocks/0/split/seed=2 | less\n"};
-  usage.options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
-                              "file for the result, which is replaced (default: the standard output)");
-  add_scene_options(usage);
-  return usage;
-}
-
 /// Tables, meshes and libraries are sought from the folder of a scene: elsewhere they may be others, or none.
 void check_reads_alike(const std::string& plain, const fs::path& out, const fs::path& file,
                        Registry& registry, const std::string& resolved, bool allow_plugins) {
@@ -44,14 +30,28 @@ void check_reads_alike(const std::string& plain, const fs::path& out, const fs::
 
 }  // namespace
 
+Usage usage_of_blocks() {
+  Usage usage{
+      "blocks", "SCENE [-o FILE] [options]",
+      "Writes the scene with every generator in \"blocks\" replaced by plain polygons in \"bodies\".\n"
+      "The result reads and runs as the scene itself does.",
+      "SCENE",
+      "  talus blocks scenes/vaiont.json -o scenes/vaiont_plain.json\n"
+      "  talus blocks scenes/vaiont.json --set /blocks/0/split/seed=2 | less\n"};
+  usage.options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
+                              "file for the result, which is replaced (default: the standard output)");
+  add_scene_options(usage);
+  return usage;
+}
+
 int blocks_command(const Words& words) {
   const Usage usage = usage_of_blocks();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const fs::path file = text_option(*given, "SCENE");
+  const fs::path file = here_or_shipped(text_option(*given, "SCENE"));
   const bool allow_plugins = given->count("allow-plugins") != 0;
   const std::vector<Override> overrides = overrides_of(usage, *given);
-  Registry registry = load_registry(usage, *given);
+  Registry registry = offered_registry(usage, *given);
   const Scene scene = read_scene_of(file, registry, overrides, allow_plugins);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   const std::string plain =

@@ -9,8 +9,8 @@
 #include "output/output_folder.hpp"
 #include "output/whole_file.hpp"
 #include "progress.hpp"
+#include "report/report.hpp"
 #include "scene_options.hpp"
-#include "terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -24,6 +24,51 @@ namespace talus {
 namespace {
 
 namespace po = boost::program_options;
+
+/// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
+/// Returns the warnings, each of which was told once.
+std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& given,
+                                  const std::filesystem::path& file, std::deque<Registry>& registries,
+                                  ComparisonOrder& order, const Log& log) {
+  std::set<std::string> warnings;
+  for (const std::string& value : order.variation.values) {
+    std::vector<Override> overrides = order.overrides;
+    overrides.push_back({order.variation.pointer, value});
+    Registry& registry = registries.emplace_back(offered_registry(usage, given));
+    order.scenes.push_back(read_scene_of(file, registry, overrides, given.count("allow-plugins") != 0, log));
+    for (const std::string& warning : order.scenes.back().warnings) {
+      if (warnings.insert(warning).second) log.warning(warning);
+    }
+  }
+  return warnings;
+}
+
+int code_of(const Comparison& comparison) {
+  const auto any = [&](RunEnd end) {
+    return std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                       [end](const ComparedRun& run) { return run.result.end == end; });
+  };
+  if (any(RunEnd::interrupted)) return exit_code::interrupted;
+  if (any(RunEnd::stopped)) return exit_code::numerical_trouble;
+  return comparison.tolerances_held() ? exit_code::ok : exit_code::tolerance_broken;
+}
+
+void tell_troubles(const Comparison& comparison, const std::filesystem::path& folder,
+                   const std::set<std::string>& told, const Log& log) {
+  for (const std::string& warning : comparison.warnings) log.warning(warning);
+  for (const ComparedRun& run : comparison.runs) {
+    for (const std::string& warning : run.result.summary.warnings) {
+      if (!told.contains(warning)) log.warning(run.value + ": " + warning);
+    }
+    if (run.result.end == RunEnd::stopped) log.error(run.value + ": " + run.result.trouble);
+    if (run.result.end == RunEnd::interrupted) {
+      log.info("interrupted", fmt::format("{}: interrupted at t = {:.6g} s; results so far are in {}",
+                                          run.value, run.result.time, folder.string()));
+    }
+  }
+}
+
+}  // namespace
 
 Usage usage_of_compare() {
   Usage usage{
@@ -47,59 +92,22 @@ Usage usage_of_compare() {
       "out", po::value<std::string>()->value_name("DIR"),
       "folder for the results (default: out/<scene name>-compare)")(
       "overwrite", "replace results that the folder holds already")(
-      "threads", po::value<int>()->value_name("N"),
+      "threads", po::value<std::string>()->value_name("N"),
       "runs at a time, one thread each (default: one per core)");
   add_scene_options(usage);
-  usage.options.add_options()("quiet,q", "no progress")(
+  add_log_options(usage);
+  usage.options.add_options()("no-report", "write no report.html")("quiet,q", "no progress")(
       "no-skin", "seek contact candidates anew at every step: slow, for checking; the bits stay the same");
   return usage;
 }
-
-/// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
-void read_scenes(const Usage& usage, const po::variables_map& given, const std::filesystem::path& file,
-                 std::deque<Registry>& registries, ComparisonOrder& order) {
-  std::set<std::string> warnings;
-  for (const std::string& value : order.variation.values) {
-    std::vector<Override> overrides = order.overrides;
-    overrides.push_back({order.variation.pointer, value});
-    Registry& registry = registries.emplace_back(load_registry(usage, given));
-    order.scenes.push_back(read_scene_of(file, registry, overrides, given.count("allow-plugins") != 0));
-    for (const std::string& warning : order.scenes.back().warnings) {
-      if (warnings.insert(warning).second) print_warning(warning);
-    }
-  }
-}
-
-int code_of(const Comparison& comparison) {
-  const auto any = [&](RunEnd end) {
-    return std::any_of(comparison.runs.begin(), comparison.runs.end(),
-                       [end](const ComparedRun& run) { return run.result.end == end; });
-  };
-  if (any(RunEnd::interrupted)) return exit_code::interrupted;
-  if (any(RunEnd::stopped)) return exit_code::numerical_trouble;
-  return comparison.tolerances_held() ? exit_code::ok : exit_code::tolerance_broken;
-}
-
-void print_troubles(const Comparison& comparison, const std::filesystem::path& folder) {
-  for (const std::string& warning : comparison.warnings) print_warning(warning);
-  for (const ComparedRun& run : comparison.runs) {
-    for (const std::string& warning : run.result.summary.warnings) print_warning(run.value + ": " + warning);
-    if (run.result.end == RunEnd::stopped) print_error(run.value + ": " + run.result.trouble);
-    if (run.result.end == RunEnd::interrupted) {
-      fmt::print(stderr, "{}: interrupted at t = {:.6g} s; results so far are in {}\n", run.value,
-                 run.result.time, folder.string());
-    }
-  }
-}
-
-}  // namespace
 
 int compare_command(const Words& words) {
   const Usage usage = usage_of_compare();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   if (given->count("vary") == 0) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
-  const std::filesystem::path file = text_option(*given, "SCENE");
+  const Log log = log_of(usage, *given);
+  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
 
   ComparisonOrder order;
   order.variation = parse_variation(text_option(*given, "vary"));
@@ -112,10 +120,11 @@ int compare_command(const Words& words) {
   order.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-compare")
                              : std::filesystem::path(out);
   std::deque<Registry> registries;
-  read_scenes(usage, *given, file, registries, order);
+  const std::set<std::string> told = read_scenes(usage, *given, file, registries, order, log);
   order.scene_hash = hash_of_file(file);
-  if (const std::string reference = text_option(*given, "reference"); !reference.empty()) {
-    order.reference = ReferenceFile{reference, hash_of_file(reference), read_series(reference)};
+  if (const std::string named = text_option(*given, "reference"); !named.empty()) {
+    const std::filesystem::path reference = here_or_shipped(named);
+    order.reference = ReferenceFile{reference.string(), hash_of_file(reference), read_series(reference)};
   }
   check_order(order);
   const bool overwrite = given->count("overwrite") != 0;
@@ -125,14 +134,23 @@ int compare_command(const Words& words) {
   }
 
   order.interrupted = watch_for_interrupts();
-  Progress progress(given->count("quiet") != 0);
+  log.info("started", "",
+           {{"scene", file.string()},
+            {"folder", order.folder.string()},
+            {"vary", text_option(*given, "vary")},
+            {"threads", order.threads},
+            {"version", TALUS_VERSION}});
+  Progress progress(log, given->count("quiet") != 0);
   order.progress = [&](double share) { progress.show(share, fmt::format("{} runs", order.scenes.size())); };
   const Comparison comparison = compare(order);
   progress.clear();
 
   write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
   write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
-  print_troubles(comparison, order.folder);
+  if (given->count("no-report") == 0) write_report(order.folder);
+  tell_troubles(comparison, order.folder, told, log);
+  if (log.in_json())
+    log.info("compared", "", {{"folder", order.folder.string()}, {"exit_code", code_of(comparison)}});
   fmt::print("{}\nresults in {}\n", comparison_table(order, comparison), order.folder.string());
   return code_of(comparison);
 }

@@ -6,6 +6,7 @@ namespace talus {
 namespace exit_code {
 inline constexpr int ok = 0;
 inline constexpr int internal_error = 1;
+inline constexpr int check_failed = 1;  ///< of check-plugin and verify
 inline constexpr int bad_input = 2;
 inline constexpr int plugin_refused = 3;
 inline constexpr int numerical_trouble = 4;

@@ -18,8 +18,11 @@ std::string left_text(double share, double elapsed) {
 
 }  // namespace
 
-Progress::Progress(bool quiet)
-    : style_(quiet ? Style::none : (stderr_is_terminal() ? Style::bar : Style::lines)) {}
+Progress::Progress(const Log& log, bool quiet)
+    : log_(log),
+      style_(quiet || !log.shows(LogLevel::info)      ? Style::none
+             : !log.in_json() && stderr_is_terminal() ? Style::bar
+                                                      : Style::lines) {}
 
 Progress::~Progress() {
   clear();
@@ -55,8 +58,9 @@ void Progress::print_line(double share, const std::string& words, double elapsed
   const int tenths = static_cast<int>(std::floor(share * 10 + 1e-9));
   if (tenths <= tenths_) return;
   tenths_ = tenths;
-  fmt::print(stderr, "{} %  {}  {} passed, {} left\n", tenths * 10, words, clock_text(elapsed),
-             left_text(share, elapsed));
+  const std::string text = fmt::format("{} %  {}  {} passed, {} left", tenths * 10, words,
+                                       clock_text(elapsed), left_text(share, elapsed));
+  log_.info("progress", text, {{"share", share}, {"elapsed [s]", elapsed}});
 }
 
 std::string clock_text(double seconds) {

@@ -1,15 +1,18 @@
 #pragma once
 
+#include "log.hpp"
+
 #include <chrono>
 #include <string>
 
 namespace talus {
 
 /// How far a run is, on stderr: one line with a bar and the time left on a terminal, redrawn at most five
-/// times per second; elsewhere a plain line at every 10 %.
+/// times per second; elsewhere a line of the log at every 10 %.
 class Progress {
  public:
-  explicit Progress(bool quiet);
+  /// Says nothing where it is quiet or the log does not show it.
+  Progress(const Log& log, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -26,6 +29,7 @@ class Progress {
   void draw_bar(double share, const std::string& words, double elapsed);
   void print_line(double share, const std::string& words, double elapsed);
 
+  Log log_;
   enum class Style { none, bar, lines } style_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};

@@ -1,12 +1,13 @@
 #include "scene_options.hpp"
 
 #include "output/whole_file.hpp"
-#include "terminal.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdio>
 
 namespace talus {
 
@@ -15,10 +16,9 @@ namespace po = boost::program_options;
 void add_plugin_path(Usage& usage) {
   usage.options.add_options()("plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
                               "look for plugins here first; may be given several times");
-  usage.options.add_options()("simd", po::value<std::string>()->value_name("LEVEL"),
-                              "instruction set of plugins and loops: scalar, avx2, avx512 or auto, the best "
-                              "this machine has (default); "
-                              "same bits at any");
+  usage.options.add_options()("simd", po::value<std::string>()->value_name("scalar|avx2|avx512|auto"),
+                              "instruction set of plugins and loops; auto, the best this machine has, is the "
+                              "default; same bits at any");
 }
 
 void add_scene_options(Usage& usage) {
@@ -49,18 +49,37 @@ SimdLevel simd_of(const Usage& usage, const po::variables_map& given) {
 
 }  // namespace
 
-Registry load_registry(const Usage& usage, const po::variables_map& given) {
+std::vector<std::filesystem::path> plugin_folders_of(const Usage& usage, const po::variables_map& given) {
   std::vector<std::filesystem::path> folders;
   for (const std::string& folder : list_option(given, "plugin-path")) {
     if (!std::filesystem::is_directory(folder)) {
       throw UsageError(usage.command, fmt::format("--plugin-path {}: there is no such folder", folder));
     }
-    folders.emplace_back(folder);
+    folders.push_back(std::filesystem::absolute(folder));
   }
+  return folders;
+}
+
+Registry load_registry(const Usage& usage, const po::variables_map& given) {
   Registry registry;
   registry.simd = simd_of(usage, given);
-  load_folders(registry, search_path(folders));
+  load_folders(registry, search_path(plugin_folders_of(usage, given)));
   return registry;
+}
+
+Registry offered_registry(const Usage& usage, const po::variables_map& given) {
+  Registry registry;
+  registry.simd = simd_of(usage, given);
+  offer_folders(registry, search_path(plugin_folders_of(usage, given)));
+  return registry;
+}
+
+std::filesystem::path here_or_shipped(const std::filesystem::path& named) {
+  if (named.empty() || named.is_absolute() || std::filesystem::exists(named)) return named;
+  std::filesystem::path shipped = installation_prefix() / "share" / "talus" / named;
+  if (!std::filesystem::is_regular_file(shipped)) return named;
+  fmt::print(stderr, "there is no {} here: taking {}\n", named.string(), shipped.string());
+  return shipped;
 }
 
 std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& given) {
@@ -77,10 +96,11 @@ std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& 
 
 int threads_of(const Usage& usage, const po::variables_map& given, int fallback) {
   if (given.count("threads") == 0) return fallback;
-  const int threads = given["threads"].as<int>();
-  if (threads < 1 || threads > 1024) {
-    throw UsageError(usage.command, fmt::format("--threads {}: allowed are 1 to 1024", threads));
-  }
+  const std::string text = given["threads"].as<std::string>();
+  int threads = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
+  if (error != std::errc() || end != text.data() + text.size() || threads < 1 || threads > 1024)
+    throw UsageError(usage.command, fmt::format("--threads {}: allowed are 1 to 1024", text));
   return threads;
 }
 
@@ -106,12 +126,13 @@ bool names_a_library(const std::filesystem::path& file, const SceneError& proble
 }  // namespace
 
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
-                    const std::vector<Override>& overrides, bool allow_plugins) {
+                    const std::vector<Override>& overrides, bool allow_plugins, const Log& log) {
   try {
     return read_scene(file, registry, {overrides, allow_plugins});
   } catch (const SceneError& problem) {
+    load_offered(registry);  // what was refused may be what is missing
     for (const RefusedLibrary& refused : registry.refused) {
-      print_warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
+      log.warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
     }
     if (!allow_plugins && names_a_library(file, problem)) throw LibrariesNotAllowed(problem.mistakes);
     throw;

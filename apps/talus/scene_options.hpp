@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arguments.hpp"
+#include "log.hpp"
 #include "scene/read.hpp"
 
 #include <filesystem>
@@ -14,6 +15,17 @@ void add_plugin_path(Usage& usage);
 
 /// The registry of all libraries on the search path.
 Registry load_registry(const Usage& usage, const boost::program_options::variables_map& given);
+
+/// The same for a scene, which says what it needs: what it does not name is not loaded.
+Registry offered_registry(const Usage& usage, const boost::program_options::variables_map& given);
+
+/// --plugin-path; throws UsageError if there is no such folder.
+std::vector<std::filesystem::path> plugin_folders_of(const Usage& usage,
+                                                     const boost::program_options::variables_map& given);
+
+/// The file by that name, or where there is none, the one of that name that was installed with the program:
+/// so "scenes/incline.json" runs from any folder. Which it takes then goes to stderr.
+std::filesystem::path here_or_shipped(const std::filesystem::path& named);
 
 /// The overrides of --set.
 std::vector<Override> overrides_of(const Usage& usage, const boost::program_options::variables_map& given);
@@ -33,6 +45,6 @@ class LibrariesNotAllowed : public SceneError {
 /// Reads the scene. Throws LibrariesNotAllowed where it needs --allow-plugins. Warns of libraries that were
 /// refused when a mistake may come from them.
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
-                    const std::vector<Override>& overrides, bool allow_plugins);
+                    const std::vector<Override>& overrides, bool allow_plugins, const Log& log = {});
 
 }  // namespace talus

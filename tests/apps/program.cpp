@@ -25,8 +25,9 @@ void redirect(const std::filesystem::path& file, int descriptor) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(not_started);
 }
 
-pid_t start(const std::filesystem::path& folder, const std::vector<std::string>& words) {
-  std::vector<std::string> all{TALUS_PROGRAM};
+pid_t start(const std::filesystem::path& program, const std::filesystem::path& folder,
+            const std::vector<std::string>& words) {
+  std::vector<std::string> all{program.string()};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> arguments;
   for (std::string& word : all) arguments.push_back(word.data());
@@ -56,16 +57,29 @@ Call finish(pid_t child, const std::filesystem::path& folder) {
 
 }  // namespace
 
+Call call_program(const std::filesystem::path& program, const std::filesystem::path& folder,
+                  const std::vector<std::string>& words) {
+  return finish(start(program, folder, words), folder);
+}
+
 Call call_talus(const std::filesystem::path& folder, const std::vector<std::string>& words) {
-  return finish(start(folder, words), folder);
+  return call_program(TALUS_PROGRAM, folder, words);
 }
 
 Call call_and_signal(const std::filesystem::path& folder, const std::vector<std::string>& words, int signal,
                      const std::filesystem::path& file) {
-  const pid_t child = start(folder, words);
+  const pid_t child = start(TALUS_PROGRAM, folder, words);
   for (int i = 0; i < 3000 && !std::filesystem::exists(file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
+  kill(child, signal);
+  return finish(child, folder);
+}
+
+Call call_and_signal_after(const std::filesystem::path& folder, const std::vector<std::string>& words,
+                           int signal, double seconds) {
+  const pid_t child = start(TALUS_PROGRAM, folder, words);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   kill(child, signal);
   return finish(child, folder);
 }

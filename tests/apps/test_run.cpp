@@ -8,9 +8,20 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <sstream>
 
 using namespace talus;
 using Catch::Matchers::Contains;
+
+namespace {
+
+int count_of(const std::string& text, const std::string& words) {
+  int count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
 
 TEST_CASE("a run writes its results and will not overwrite them", "[apps][run]") {
   const Scratch scratch;
@@ -178,4 +189,62 @@ TEST_CASE("numerical trouble is told, recorded and ends with its code", "[apps][
   CHECK(record["end"] == "stopped");
   CHECK_THAT(call.err, Contains(record["trouble"].get<std::string>()));
   CHECK(std::filesystem::exists(scratch / "out/small/frames/frame_000000.vtu"));
+}
+
+TEST_CASE("a log for programs is one JSON object on each line", "[apps][log]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto logged = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--log-format", "json"});
+    std::vector<nlohmann::json> lines;
+    std::istringstream stream(call_talus(scratch.folder(), words).err);
+    for (std::string line; std::getline(stream, line);) {
+      lines.push_back(nlohmann::json::parse(line));
+      CHECK(lines.back()["time"].get<std::string>().size() == 24);
+      CHECK((lines.back().contains("level") && lines.back().contains("event")));
+    }
+    return lines;
+  };
+  const auto run = logged({"run", "small.json"});
+  REQUIRE(run.size() > 3);
+  CHECK(run.front()["event"] == "started");
+  CHECK(run.front()["scene"] == "small.json");
+  CHECK(run[1]["event"] == "progress");
+  CHECK(run[1]["share"] == Approx(0.1).margin(0.05));
+  CHECK(run.back()["event"] == "finished");
+  CHECK(run.back()["state_hash"] == json_of(scratch / "out/small/run.json")["state_hash"]);
+  const auto again = logged({"run", "small.json"});
+  REQUIRE(again.size() == 1);
+  CHECK(again[0]["level"] == "error");
+  CHECK_THAT(again[0]["message"].get<std::string>(), Contains("--overwrite"));
+  const auto wrong = logged({"run", "small.json", "--set", "/time/end=-1"});
+  CHECK(wrong.at(0)["pointer"] == "/time/end");
+  CHECK(logged({"run", "small.json", "--wat"}).at(0)["level"] == "error");
+  const auto compared = logged({"compare", "small.json", "--vary", "/time/dt=1e-4,5e-5"});
+  CHECK(compared.front()["vary"] == "/time/dt=1e-4,5e-5");
+  CHECK(compared.back()["event"] == "compared");
+  CHECK(compared.back()["exit_code"] == 0);
+}
+
+TEST_CASE("a log level keeps the rest from stderr, and a warning is told once", "[apps][log]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto told = [&](const char* level) {
+    return call_talus(scratch.folder(), {"run", "small.json", "--overwrite", "--set",
+                                         "/contact/model=frictionless", "--log-level", level})
+        .err;
+  };
+  CHECK(told("error").empty());
+  const std::string warnings = told("warning");
+  CHECK_THAT(warnings, Contains("frictionless reads no friction_angle") && !Contains("50 %"));
+  CHECK(count_of(warnings, "frictionless reads no") == 3);
+  CHECK_THAT(told("info"), Contains("50 %"));
+  const Call compared = call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/time/end=0.1,0.2",
+                                                      "--set", "/contact/model=frictionless", "--quiet"});
+  CHECK(count_of(compared.err, "frictionless reads no") == 3);
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--log-level", "loud"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("--log-level loud: allowed are error, warning, info"));
+  CHECK_THAT(call_talus(scratch.folder(), {"resume", "out/small", "--log-format", "xml"}).err,
+             Contains("--log-format xml: allowed are text, json"));
 }

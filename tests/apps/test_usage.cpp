@@ -16,7 +16,8 @@ TEST_CASE("help and version go to stdout", "[apps]") {
   const Call version = call_talus(scratch.folder(), {"--version"});
   CHECK(version.code == 0);
   CHECK(version.out == "talus " TALUS_VERSION "\n");
-  for (const char* command : {"run", "compare", "validate", "blocks", "plugins", "describe"}) {
+  for (const char* command : {"run", "compare", "validate", "blocks", "plugins", "describe", "check-plugin",
+                              "new-plugin", "schema"}) {
     const Call call = call_talus(scratch.folder(), {command, "--help"});
     CHECK(call.code == 0);
     CHECK_THAT(call.out, Contains(std::string("Usage: talus ") + command) && Contains("--plugin-path"));
@@ -47,7 +48,9 @@ TEST_CASE("arguments that are missing, too many or senseless are told", "[apps]"
   CHECK_THAT(refused({"run"}), Contains("SCENE is missing"));
   CHECK_THAT(refused({"run", "a.json", "b.json"}), Contains("one SCENE only"));
   CHECK_THAT(refused({"run", "a.json", "--threads", "many"}), Contains("--threads"));
-  CHECK_THAT(refused({"run", "a.json", "--threads", "0"}), Contains("--threads 0"));
+  for (const char* threads : {"0", "abc", "2x", "99999999999"})
+    CHECK_THAT(refused({"run", "a.json", "--threads", threads}),
+               Contains(std::string("--threads ") + threads + ": allowed are 1 to 1024"));
   CHECK_THAT(refused({"run", "a.json", "--simd", "sse9"}), Contains("--simd sse9") && Contains("avx512"));
   CHECK_THAT(refused({"run", "a.json", "--set", "time=1"}), Contains("--set /pointer=value"));
   CHECK_THAT(refused({"run", "a.json", "--plugin-path", "nowhere"}), Contains("nowhere"));

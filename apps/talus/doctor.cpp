@@ -1,0 +1,89 @@
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "exit_code.hpp"
+#include "kept_run.hpp"
+#include "output/input_error.hpp"
+#include "output/series.hpp"
+#include "output/whole_file.hpp"
+#include "scene_options.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace talus {
+
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr std::size_t most_steps = 200000;
+constexpr double noticed = 0.01;  ///< share of the throughput
+
+/// Where the ledger first missed more than can be passed over, from energy.csv.
+void say_when_energy_was_lost(const std::filesystem::path& folder) {
+  const Series series = read_series(folder / "energy.csv");
+  const auto residual = series.column("residual [J/m]"), throughput = series.column("throughput [J/m]");
+  if (!residual || !throughput)
+    throw InputError(fmt::format("'{}' has no ledger", (folder / "energy.csv").string()));
+  double largest = 0, at = 0;
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    const double share = series.values[*throughput][i] > 0
+                             ? std::abs(series.values[*residual][i]) / series.values[*throughput][i]
+                             : 0;
+    if (share > noticed && largest <= noticed) {
+      fmt::print("the energy balance first misses more than {:.0f} % of the throughput by t = {:.6g} s\n",
+                 100 * noticed, series.time[i]);
+    }
+    if (share > largest) largest = share, at = series.time[i];
+  }
+  fmt::print("the energy balance misses {:.3g} % of the throughput at most, at t = {:.6g} s\n", 100 * largest,
+             at);
+}
+
+}  // namespace
+
+Usage usage_of_doctor() {
+  Usage usage{
+      "doctor", "FOLDER",
+      "Explains a run that was stopped or whose energy does not balance: goes through it again step by step\n"
+      "from its last good state, and says which step, which contact and what to change.",
+      "FOLDER", "  talus doctor out/column\n"};
+  usage.options.add_options()("plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
+                              "look for plugins here before the folders that the run was started with");
+  return usage;
+}
+
+int doctor_command(const Words& words) {
+  const Usage usage = usage_of_doctor();
+  const auto given = read_arguments(usage, words);
+  if (!given) return exit_code::ok;
+  const std::filesystem::path folder = text_option(*given, "FOLDER");
+  const auto record = nlohmann::json::parse(read_whole_file(folder / "run.json"), nullptr, false);
+  if (!record.is_object() || !record.contains("end"))
+    throw InputError(fmt::format("'{}' is no record of a run", (folder / "run.json").string()));
+  const std::string end = record["end"];
+  fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), end, record["t [s]"].get<double>(),
+             record["steps"].get<std::uint64_t>());
+  if (end == "stopped") fmt::print("{}\n", record["trouble"].get<std::string>());
+  for (const auto& warning : record["warnings"]) fmt::print("warned: {}\n", warning.get<std::string>());
+  say_when_energy_was_lost(folder);
+  const std::filesystem::path file = checkpoint_file(folder);
+  if (end != "stopped") return exit_code::ok;
+  if (!std::filesystem::exists(file)) {
+    fmt::print("there is no checkpoint to go through the end again: it was stopped before t = 0\n");
+    return exit_code::ok;
+  }
+  const Checkpoint checkpoint = read_checkpoint(file);
+  KeptRun kept(checkpoint, {.threads = checkpoint.threads, .neighbour_skin = checkpoint.neighbour_skin},
+               plugin_folders_of(usage, *given));
+  Archive archive(checkpoint.state);
+  kept.simulation.exchange(archive);
+  fmt::print("\nagain from the last good state, t = {:.9g} s:\n", checkpoint.time);
+  fmt::print("{}", diagnosis_text(kept.simulation.scene(), diagnose(kept.simulation, most_steps)));
+  return exit_code::ok;
+}
+
+}  // namespace talus
