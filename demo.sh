@@ -8,4 +8,4 @@ install_missing_packages
 build_preset release
 build/release/bin/talus compare scenes/incline.json --vary /contact/model=overlap_area,vertex_edge \
   --reference scenes/reference/incline_overlap_area.csv --out out/incline --overwrite
-echo "The results are in out/incline: compare.csv (curves), compare.json (deviations), and a folder per law."
+echo "Open out/incline/report.html. Beside it are compare.csv (curves), compare.json (deviations), and a folder per law."

@@ -5,5 +5,7 @@ cd "$(dirname "$0")"
 source cmake/setup.sh
 
 install_missing_packages
+(install_missing_packages "${talus_browser_packages[@]}") || echo "No browser: reports are not looked at" >&2
+(install_missing_packages "${talus_schema_packages[@]}") || echo "No python3-jsonschema: the schema is not held against scenes" >&2
 build_preset release
 ctest --preset release -j2 "$@"
