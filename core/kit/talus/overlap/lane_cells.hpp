@@ -2,6 +2,9 @@
 
 #include <talus/overlap/lane_piece.hpp>
 
+#include <bit>
+#include <cstdint>
+
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
 
@@ -43,32 +46,55 @@ class LaneCells {
   Packs2 arc;                     ///< m, sum of the segments along the slave
   Packs2 force;                   ///< N/m on the slave
 
+  /// `full`: all lanes have all `corners`.
+  template <bool full>
   void find(const LanePiece<corners>& master, const LanePiece<corners>& slave, Pack stiffness) {
     deep = simd::nowhere();
     stored = penetration = area = moment_x = moment_y = 0.0;
     arc = force = {0.0, 0.0};
     cell_count = segment_count_ = 0;
     measure(master, slave);
-    choose_meetings(master, slave);
-    for (int i = 0; i < meeting_count_;) {
-      const int side = meeting_[i].master_side;
+#pragma GCC unroll 4
+    for (int k = 0; k < corners; ++k) {
+      CornerBits meetings = possible_meetings(k);
+      if constexpr (!full) meetings &= each_corner(master.real[k]) & in_turn(slave.real);
+      if (meetings == 0) continue;
       Integrals sum{0.0, 0.0, 0.0};
       segment_start[cell_count] = segment_count_;
-      cell[cell_count].side = side;
+      cell[cell_count].side = k;
       cell[cell_count].share = 0.0;
-      for (; i < meeting_count_ && meeting_[i].master_side == side; ++i)
-        cut_out(master, slave, meeting_[i], stiffness, sum);
+      while (meetings != 0) {
+        const int j = std::countr_zero(meetings) / lanes;
+        const CornerBits here = meetings & (all_lanes << j * lanes);
+        meetings ^= here;
+        cut_out(master, slave, k, j, simd::mask_of(static_cast<unsigned>(here >> j * lanes)), stiffness, sum);
+      }
       if (segment_count_ > segment_start[cell_count]) close_cell(master, stiffness, sum);
     }
     segment_start[cell_count] = segment_count_;
   }
 
  private:
-  /// A slave side that may reach into the cell of a master side, in these lanes.
-  struct Meeting {
-    int master_side, slave_side;
-    unsigned possible;
-  };
+  /// What holds of corners of the slave or of the sides that start there: bit j · lanes + lane.
+  using CornerBits = std::uint64_t;
+  static constexpr CornerBits all_lanes = (1u << lanes) - 1;
+  static constexpr int width = corners * lanes;
+
+  static CornerBits each_corner(unsigned bits) {
+    CornerBits all = bits;
+    for (int shift = lanes; shift < width; shift *= 2) all |= all << shift;
+    return all;
+  }
+  static CornerBits in_turn(const unsigned (&bits)[corners]) {
+    CornerBits all = 0;
+    for (int j = 0; j < corners; ++j) all |= CornerBits{bits[j]} << j * lanes;
+    return all;
+  }
+  /// What holds of the next corner.
+  static CornerBits of_next(CornerBits corner) {
+    return corner >> lanes | (corner & all_lanes) << (width - lanes);
+  }
+
   struct Integrals {
     Pack area, along, depth;  ///< −∫ 1, s, d dA
   };
@@ -78,41 +104,30 @@ class LaneCells {
   void measure(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
     for (int k = 0; k < corners; ++k) {
       const Packs2 along = (k == 0 ? master.last_tangent : master.tangent[k - 1]) + master.tangent[k];
+      behind_[k] = right_[k] = 0;
       for (int j = 0; j < corners; ++j) {
         const Packs2 from = slave.at[j] - master.at[k];
         depth_[k][j] = simd::cross(master.tangent[k], from);
         height_[k][j] = simd::dot(along, from);
-        behind_[k][j] = simd::bits(depth_[k][j] > 0.0);
-        right_[k][j] = simd::bits(height_[k][j] >= 0.0);
+        behind_[k] |= CornerBits{simd::bits(depth_[k][j] > 0.0)} << j * lanes;
+        right_[k] |= CornerBits{simd::bits(height_[k][j] >= 0.0)} << j * lanes;
       }
       depth_[k][corners] = depth_[k][0];
       height_[k][corners] = height_[k][0];
-      behind_[k][corners] = behind_[k][0];
-      right_[k][corners] = right_[k][0];
     }
-    for (int j = 0; j <= corners; ++j) {
-      height_[corners][j] = height_[0][j];
-      right_[corners][j] = right_[0][j];
-    }
+    for (int j = 0; j <= corners; ++j) height_[corners][j] = height_[0][j];
+    right_[corners] = right_[0];
   }
 
-  void choose_meetings(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
-    meeting_count_ = 0;
-    for (int k = 0; k < corners; ++k) {
-      for (int j = 0; j < corners; ++j) {
-        const unsigned possible = master.real[k] & slave.real[j] & (behind_[k][j] | behind_[k][j + 1]) &
-                                  (right_[k][j] | right_[k][j + 1]) &
-                                  ~(right_[k + 1][j] & right_[k + 1][j + 1]);
-        meeting_[meeting_count_] = {k, j, possible};
-        meeting_count_ += possible != 0 ? 1 : 0;
-      }
-    }
+  /// Slave sides that may reach into the cell of a master side: not all before it, not all on one side.
+  CornerBits possible_meetings(int k) const {
+    return (behind_[k] | of_next(behind_[k])) & (right_[k] | of_next(right_[k])) &
+           ~(right_[k + 1] & of_next(right_[k + 1]));
   }
 
   /// The part of a slave side in a cell, by its parameters (Liang–Barsky).
-  void cut_out(const LanePiece<corners>& master, const LanePiece<corners>& slave, const Meeting& meeting,
+  void cut_out(const LanePiece<corners>& master, const LanePiece<corners>& slave, int k, int j, Mask possible,
                Pack stiffness, Integrals& sum) {
-    const int k = meeting.master_side, j = meeting.slave_side;
     const Pack first = depth_[k][j], last = depth_[k][j + 1];
     const Pack left = height_[k][j], left_last = height_[k][j + 1];
     const Pack right = height_[k + 1][j], right_last = height_[k + 1][j + 1];
@@ -130,7 +145,7 @@ class LaneCells {
     t1 = simd::select(leaves_right, after, t1);
 
     // Elsewhere the parameters may be no numbers at all.
-    Mask valid = simd::mask_of(meeting.possible) & (t0 <= t1);
+    Mask valid = possible & (t0 <= t1);
     t0 = simd::only_where(valid, t0);
     t1 = simd::only_where(valid, t1);
 
@@ -197,9 +212,8 @@ class LaneCells {
   }
 
   Pack depth_[corners][corners + 1], height_[corners + 1][corners + 1];
-  unsigned behind_[corners][corners + 1], right_[corners + 1][corners + 1];
-  Meeting meeting_[corners * corners + 1];
-  int meeting_count_ = 0, segment_count_ = 0;
+  CornerBits behind_[corners], right_[corners + 1];
+  int segment_count_ = 0;
 };
 
 }  // namespace TALUS_SIMD_LEVEL

@@ -107,8 +107,8 @@ class LaneContact {
       pieces[1].set(lane, batch.boundaries, piece.b, pair.offset_x, pair.offset_y, 0);
     }
     LaneShape<corners> shape[2];
-    shape[0].read(pieces[0]);
-    shape[1].read(pieces[1]);
+    shape[0].template read<false>(pieces[0]);
+    shape[1].template read<false>(pieces[1]);
     alignas(64) double facing[2][lanes], gap[lanes];
     const Pack least =
         simd::min(least_reach(shape[0], shape[1], facing[0]), least_reach(shape[1], shape[0], facing[1]));
@@ -126,7 +126,8 @@ class LaneContact {
       }
       TouchingPair touching{number, {0, 0}, 0, false};
       for (int p = 0; p < 2; ++p) {
-        const int side = static_cast<int>(facing[p][lane]), size = pieces[p].corners_in(lane);
+        const int side = static_cast<int>(facing[p][lane]),
+                  size = static_cast<int>(pieces[p].corners_in[lane]);
         touching.start[p] = static_cast<std::uint32_t>(side == 0 ? size - 1 : side - 1);
       }
       touching_[pair.master_share == 0.5].push_back(touching);
@@ -162,8 +163,21 @@ class LaneContact {
     LaneGroup& g = group_;
     g.collect(law, batch, &touching[begin],
               static_cast<int>(std::min<std::size_t>(lanes, touching.size() - begin)));
-    piece_[0].read(g.pieces[0]);
-    piece_[1].read(g.pieces[1]);
+    // Quadrilaterals, which most blocks are, need no look at which lane has which side.
+    if constexpr (corners == 4) {
+      if (g.pieces[0].all_have(corners) && g.pieces[1].all_have(corners))
+        return evaluate_group_of<true>(batch, loads, touching, begin, averaged, general);
+    }
+    evaluate_group_of<false>(batch, loads, touching, begin, averaged, general);
+  }
+
+  template <bool full, class General>
+  void evaluate_group_of(const ContactBatch& batch, const ContactLoads& loads,
+                         const std::vector<TouchingPair>& touching, std::size_t begin, bool averaged,
+                         const General& general) {
+    LaneGroup& g = group_;
+    piece_[0].template read<full>(g.pieces[0]);
+    piece_[1].template read<full>(g.pieces[1]);
     loads_.clear();
 
     const Pack share = averaged ? 0.5 : 1.0;
@@ -171,7 +185,7 @@ class LaneContact {
     Mask refused = piece_[0].degenerate | piece_[1].degenerate;
     Pack area = 0.0;
     for (int role = 0; role < roles_; ++role) {
-      cells_[role].find(piece_[role], piece_[1 - role], share * g.normal_stiffness);
+      cells_[role].template find<full>(piece_[role], piece_[1 - role], share * g.normal_stiffness);
       refused = refused | cells_[role].deep | !(cells_[role].area > 0.0);
       area = area + cells_[role].area;
       normal_loads(role);
@@ -184,7 +198,7 @@ class LaneContact {
     normal_damping(g, share, batch.dt, report);
     if constexpr (Law::frictional) friction(g, batch, area, report);
     const unsigned refused_bits = simd::bits(refused) & ((1u << g.count) - 1);
-    write(batch, loads, g, report, refused_bits);
+    write<full>(batch, loads, g, report, refused_bits);
     for (int lane = 0; refused_bits >> lane != 0; ++lane) {
       if ((refused_bits >> lane & 1) == 0) continue;
       if (touching[begin + lane].unseen) {
@@ -393,10 +407,11 @@ class LaneContact {
     return TouchingPair::pattern_unit * pattern + simd::load(g.starts);
   }
 
+  template <bool full>
   void write(const ContactBatch& batch, const ContactLoads& loads, const LaneGroup& g, const Report& report,
              unsigned refused) {
     for (auto& piece : loads_.at) piece[0] = piece[0] + piece[corners];
-    g.write_loads<corners>(batch, loads, refused, loads_.at);
+    g.write_loads<corners, full>(batch, loads, refused, loads_.at);
     double* report_row[lanes];
     double spare[lanes][8];
     for (int lane = 0; lane < lanes; ++lane) {

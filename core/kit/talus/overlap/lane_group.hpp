@@ -69,23 +69,24 @@ struct LaneGroup {
   }
 
   /// Loads of the lanes on their corners, from those on both pieces.
-  template <int corners>
+  template <int corners, bool full>
   void write_loads(const ContactBatch& batch, const ContactLoads& loads, unsigned refused,
                    const Packs2 (&load)[2][corners + 1]) const {
     double *x[2][lanes], *y[2][lanes];  // by piece
-    bool alike = corners == 4 && refused == 0 && count == lanes;
     for (int lane = 0; lane < lanes; ++lane) {
       const std::uint32_t begin = batch.piece_pairs[batch.pairs[pair[lane]].piece_pair_start].load_start;
       const int a = swapped[lane] ? 1 : 0;
       x[a][lane] = loads.fx + begin;
       y[a][lane] = loads.fy + begin;
-      x[1 - a][lane] = x[a][lane] + pieces[a].corners_in(lane);
-      y[1 - a][lane] = y[a][lane] + pieces[a].corners_in(lane);
-      alike = alike && pieces[0].corners_in(lane) == 4 && pieces[1].corners_in(lane) == 4;
+      // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
+      const std::uint32_t first = full ? corners : pieces[a].corners_in[lane];
+      x[1 - a][lane] = x[a][lane] + first;
+      y[1 - a][lane] = y[a][lane] + first;
     }
+    const bool all = refused == 0 && count == lanes;
     for (int p = 0; p < 2; ++p) {
-      if constexpr (corners == 4) {
-        if (alike) {
+      if constexpr (full && corners == 4) {
+        if (all) {
           write_quadrilaterals(pieces[p], load[p], x[p], y[p]);
           continue;
         }
@@ -121,7 +122,7 @@ struct LaneGroup {
                                    double* const* y) {
     unsigned by_one = 0, by_two = 0;
     for (int lane = 0; lane < lanes; ++lane) {
-      const auto start = static_cast<unsigned>(piece.start_in(lane));
+      const std::uint32_t start = piece.start_in[lane];
       by_one |= (start & 1) << lane;
       by_two |= (start >> 1) << lane;
     }
@@ -146,12 +147,12 @@ struct LaneGroup {
     }
     for (int lane = 0; lane < count; ++lane) {
       if ((refused >> lane & 1) != 0) continue;
-      const int size = piece.corners_in(lane);
+      const auto size = static_cast<int>(piece.corners_in[lane]);
       for (int i = size; i < corners; ++i) {
         x[0][lane] += x[i][lane];
         y[0][lane] += y[i][lane];
       }
-      int corner = piece.start_in(lane);
+      auto corner = static_cast<int>(piece.start_in[lane]);
       for (int i = 0; i < size; ++i) {
         to_x[lane][corner] = x[i][lane];
         to_y[lane][corner] = y[i][lane];
