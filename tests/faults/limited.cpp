@@ -23,10 +23,13 @@ Call call_within(const Limits& limits, const std::filesystem::path& folder,
   std::string command;
   // sh counts blocks of 512 bytes.
   if (limits.file_kilobytes > 0) command += fmt::format("ulimit -f {}; ", 2 * limits.file_kilobytes);
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+#ifdef __SANITIZE_ADDRESS__  // which reserves terabytes and takes some eight times as long
+  const int seconds = 8 * limits.seconds;
+#else
+  const int seconds = limits.seconds;
   if (limits.memory_megabytes > 0) command += fmt::format("ulimit -v {}; ", 1024 * limits.memory_megabytes);
 #endif
-  if (limits.seconds > 0) command += fmt::format("ulimit -t {}; ", limits.seconds);
+  if (seconds > 0) command += fmt::format("ulimit -t {}; ", seconds);
   return shell(folder, command + "exec " + quoted(words));
 }
 
