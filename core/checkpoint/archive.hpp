@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -17,11 +18,13 @@ concept Plain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 /// drift apart. Taking out what is not there throws InputError.
 class Archive {
  public:
-  Archive() = default;  ///< to be filled
+  /// To be filled, with some `expected` bytes.
+  explicit Archive(std::size_t expected = 0) { bytes_.reserve(expected); }
   explicit Archive(std::string_view from) : reading_(true), from_(from) {}
 
   bool reading() const { return reading_; }
   const std::string& bytes() const { return bytes_; }
+  std::string take_bytes() { return std::move(bytes_); }
   bool at_end() const { return from_.empty(); }
 
   template <Plain T>

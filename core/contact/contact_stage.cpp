@@ -25,6 +25,13 @@ constexpr std::size_t body_chunk = 64;
 
 void noop(void* /*object*/) noexcept {}
 
+/// An eighth more than is wanted: doubling would take twice the memory, no more at all new memory at most
+/// searches.
+template <class T>
+void make_room_in(std::vector<T>& values, std::size_t wanted) {
+  if (wanted > values.capacity()) values.reserve(wanted + wanted / 8);
+}
+
 /// Corners of a body that is one convex piece of one surface class, else 0.
 std::uint32_t plain_corners(const Model& model, const Body& body) {
   if (body.piece_end != body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) return 0;
@@ -120,6 +127,14 @@ void ContactStage::rebuild_pairs(const Model& model) {
   old_damping_power_.swap(damping_power_);
   pairs_.clear();
   piece_pairs_.clear();
+  const auto same_bodies = [](const Candidate& p, const Candidate& q) {
+    return p.body_a == q.body_a && p.body_b == q.body_b;
+  };
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < candidates_.size(); ++i)
+    repeated += same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
+  make_room_in(pairs_, candidates_.size() - repeated);
+  make_room_in(piece_pairs_, candidates_.size());
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {

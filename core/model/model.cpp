@@ -223,6 +223,10 @@ Model build_model(const Scene& scene) {
     if (model.moves(i)) model.moving_bodies.push_back(i);
     if (model.covered(i)) model.covered_bodies.push_back(i);
   }
+  const auto fit = [](auto&... grown) { (grown.shrink_to_fit(), ...); };
+  fit(model.reference_x, model.reference_y, model.surface, model.cut, model.corner_body, model.piece_start,
+      model.piece_body, model.is_strip, model.piece_strip, model.strips, model.competitors, model.sides,
+      model.next_side, model.previous_side, model.side_size, model.elements, model.element_region);
   return model;
 }
 

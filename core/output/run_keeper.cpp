@@ -11,9 +11,9 @@ RunKeeper::RunKeeper(const RunOrder& order, Simulation& simulation, Recorder& re
     : order_(order), simulation_(simulation), recorder_(recorder), result_(result) {}
 
 std::string RunKeeper::state() {
-  Archive archive;
+  Archive archive(remembered_.state.size());
   exchange(archive);
-  return archive.bytes();
+  return archive.take_bytes();
 }
 
 void RunKeeper::restore(const Checkpoint& checkpoint) {
