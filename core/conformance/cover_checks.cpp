@@ -166,6 +166,11 @@ void check_count(const Subject& subject, Trial& trial) {
     trial.due(!cover.elements.empty() && cover.stars.size() >= 3,
               fmt::format("{} elements and {} patches", cover.elements.size(), cover.stars.size()),
               "an element and three patches at least, a rigid body, or a refusal in words");
+    const bool block = cover.elements.size() == 1 && cover.stars.size() == 3;
+    trial.due(cover.strain_mass_scale == 1 || (cover.strain_mass_scale > 1 && block),
+              fmt::format("strain that is {} times as heavy in a cover of {} elements",
+                          cover.strain_mass_scale, cover.elements.size()),
+              "a factor of 1 or more, and only of one element of three patches");
     trial.due(is_sound(cover),
               "a patch or an element that does not exist, or a ring of less than three corners",
               "numbers that add_patch and add_element gave");

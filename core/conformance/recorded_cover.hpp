@@ -65,6 +65,7 @@ class RecordedCover final : public CoverSink {
   void close_boundary_loop() noexcept override;
   void steady_patch(std::uint32_t patch, const std::uint32_t to[3], const double weights[3],
                     double inertia_area) noexcept override;
+  void scale_strain_mass(double scale) noexcept override { strain_mass_scale = scale; }
   void make_rigid() noexcept override { rigid = true; }
   void refuse(const char* why) noexcept override { refusal = why; }
 
@@ -80,6 +81,7 @@ class RecordedCover final : public CoverSink {
   std::vector<Steadied> steadied;
   std::string refusal;
   bool rigid = false;
+  double strain_mass_scale = 1;
 
  private:
   std::vector<BoundaryVertex> open_;

@@ -16,7 +16,7 @@ struct Block {
   std::uint32_t corner_begin = 0;
   std::uint32_t corner_count = 0;  ///< of a body that is one convex piece; else 0
   bool rigid = false;
-  bool free = false;  ///< nothing of its motion is prescribed
+  bool free = false;  ///< nothing of its motion is prescribed, and its strain is as heavy as it is
 };
 
 struct SpeedExtremes {

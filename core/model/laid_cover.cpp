@@ -44,6 +44,7 @@ class Sink final : public CoverSink {
         {patch, {to[0], to[1], to[2]}, {weights[0], weights[1], weights[2]}, inertia_area});
   }
 
+  void scale_strain_mass(double scale) noexcept override { cover.strain_mass_scale = scale; }
   void make_rigid() noexcept override { cover.rigid = true; }
   void refuse(const char* why) noexcept override { refusal = why; }
 
@@ -115,7 +116,15 @@ std::string fault_of(const LaidCover& cover, const GivenShape& given) {
     return fmt::format("its elements have an area of {:.12g} m2, the body has {:.12g} m2", area,
                        given.shape.moments.area);
   }
-  if (cover.elements.size() == 1 && cover.patches.size() == 3) return "";
+  const bool block = cover.elements.size() == 1 && cover.patches.size() == 3;
+  if (!(cover.strain_mass_scale >= 1 && std::isfinite(cover.strain_mass_scale)) ||
+      (cover.strain_mass_scale != 1 && !block)) {
+    return fmt::format(
+        "it scales the mass of strain by {}, which takes a factor of 1 or more and one element of three "
+        "patches",
+        cover.strain_mass_scale);
+  }
+  if (block) return "";
   if (cover.loops.empty()) return "it has several elements and gave no boundary";
   const std::size_t sides = given.x.size() + given.line_x.size();
   for (const auto& loop : cover.loops) {

@@ -33,6 +33,7 @@ struct LaidCover {
   };
 
   bool rigid = false;
+  double strain_mass_scale = 1;
   std::vector<Vec2> patches;
   std::vector<LaidElement> elements;
   std::vector<std::vector<BoundaryVertex>> loops;

@@ -116,6 +116,7 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
       body.kinematics = Kinematics::rigid;
     } else if (cover.elements.size() == 1 && cover.patches.size() == 3) {
       body.kinematics = Kinematics::affine;
+      body.strain_mass_scale = cover.strain_mass_scale;
       add_element_of_block(model, index);
     } else {
       body.kinematics = Kinematics::covered;

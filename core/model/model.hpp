@@ -66,11 +66,12 @@ struct Strip {
 /// What stays of a body while it moves. Positions X are relative to the centroid at the start.
 struct Body {
   Kinematics kinematics = Kinematics::fixed;
-  Vec2 centre;                ///< m, centroid at the start, without the scene's origin
-  double mass = 0;            ///< kg per metre of thickness
-  AreaMoments moments{};      ///< about the centroid
-  double inertia = 0;         ///< kg m, about the centroid (rigid)
-  Matrix2 inverse_moment;     ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
+  Vec2 centre;             ///< m, centroid at the start, without the scene's origin
+  double mass = 0;         ///< kg per metre of thickness
+  AreaMoments moments{};   ///< about the centroid
+  double inertia = 0;      ///< kg m, about the centroid (rigid)
+  Matrix2 inverse_moment;  ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
+  double strain_mass_scale = 1;  ///< see StrainMass (affine)
   double width = 0;           ///< m, smallest; of many elements: the smaller of that and their typical size
   bool meets_itself = false;  ///< whether parts of its boundary may touch each other
   double contact_mass = 0;    ///< kg per metre: that of the body, or of a patch of the boundary

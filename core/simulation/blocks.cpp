@@ -46,6 +46,7 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_co
       block.inverse_xy = body.inverse_moment.xy;
       block.inverse_yy = body.inverse_moment.yy;
       block.rigid = body.kinematics == Kinematics::rigid;
+      if (body.strain_mass_scale != 1) with_scaled_strain_.push_back(i);
       if (body.piece_end == body.piece_begin + 1) block.corner_count = body.corner_end - body.corner_begin;
     }
     some_fixed_ = some_fixed_ || body.kinematics == Kinematics::fixed;
@@ -90,6 +91,13 @@ void Blocks::set_supports(std::span<const Support> supports) {
   for (const std::uint32_t body : moving_) {
     if (!blocks_[body].free) left_to_others_.push_back(body);
   }
+  scaled_.clear();
+  for (const std::uint32_t body : with_scaled_strain_) {
+    if (!blocks_[body].free) continue;
+    blocks_[body].free = false;  // to the kernels, which know no scale
+    scaled_.push_back(body);
+  }
+  scaled_work_.resize((scaled_.size() + chunk - 1) / chunk);
 }
 
 /// To the loops of the step what sleeps is a fixed body.

@@ -15,7 +15,7 @@ class Blocks {
 
   /// From now on these supports hold; bodies with any are left to the caller.
   void set_supports(std::span<const Support> supports);
-  /// The moving bodies that accelerate() does not take: of many elements, or with a support.
+  /// The moving bodies that accelerate() and over_scaled() do not take: of many elements, or with a support.
   std::span<const std::uint32_t> left_to_others() const { return left_to_others_; }
   /// [body] whether it stands, not 0; empty: none. All are awake when supports change.
   void set_asleep(std::span<const std::uint32_t> asleep);
@@ -27,6 +27,10 @@ class Blocks {
   /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
   void accelerate(const StepConditions& conditions, MotionState& motion, BodyMotion* middle,
                   AccelerationWork& work);
+  /// Calls each(body, work) for the free ones with scaled strain that are awake, on all threads, and adds to
+  /// `work` in their order.
+  template <class Each>
+  void over_scaled(AccelerationWork& work, const Each& each);
 
  private:
   static constexpr std::size_t chunk = 64;  ///< bodies; sums are kept apart by chunks
@@ -45,9 +49,12 @@ class Blocks {
   std::vector<kernels::Block> blocks_;
   std::vector<kernels::Block> awake_;  ///< blocks_ as they are awake; empty while all are
   std::vector<std::uint32_t> asleep_;
-  std::vector<std::uint32_t> moving_;          ///< bodies that are not fixed
-  std::vector<std::uint32_t> others_;          ///< moving bodies whose boundary the kernels do not know
-  std::vector<std::uint32_t> left_to_others_;  ///< all, before supports are told
+  std::vector<std::uint32_t> moving_;              ///< bodies that are not fixed
+  std::vector<std::uint32_t> others_;              ///< moving bodies whose boundary the kernels do not know
+  std::vector<std::uint32_t> left_to_others_;      ///< all, before supports are told
+  std::vector<std::uint32_t> with_scaled_strain_;  ///< see StrainMass
+  std::vector<std::uint32_t> scaled_;              ///< the free ones of them
+  std::vector<AccelerationWork> scaled_work_;      ///< [chunk of scaled_]
   /// A chunk with any.
   struct Chunk {
     std::size_t begin, end;  ///< its entries of stretches_
@@ -59,5 +66,23 @@ class Blocks {
   std::vector<kernels::SpeedExtremes> speeds_;
   std::vector<kernels::BlockSums> sums_;
 };
+
+template <class Each>
+void Blocks::over_scaled(AccelerationWork& work, const Each& each) {
+  if (scaled_.empty()) return;
+  workers_.over(scaled_.size(), chunk, [&](std::size_t number, std::size_t begin, std::size_t end) {
+    AccelerationWork here;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_asleep(scaled_[i])) each(scaled_[i], here);
+    }
+    scaled_work_[number] = here;
+  });
+  for (const AccelerationWork& part : scaled_work_) {
+    work.kinetic += part.kinetic;
+    work.damping_loss += part.damping_loss;
+    work.damping_loss_ahead += part.damping_loss_ahead;
+    work.external_work += part.external_work;
+  }
+}
 
 }  // namespace talus

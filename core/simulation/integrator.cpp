@@ -1,6 +1,7 @@
 #include "simulation/integrator.hpp"
 
 #include "simulation/blocks.hpp"
+#include "simulation/strain_mass.hpp"
 #include "simulation/velocity_update.hpp"
 
 namespace talus {
@@ -38,10 +39,13 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
   const Matrix2 &q = force.moment, &inverse = body.inverse_moment;
   const double xx = q.xx * inverse.xx + q.xy * inverse.yx, xy = q.xx * inverse.xy + q.xy * inverse.yy;
   const double yx = q.yx * inverse.xx + q.yy * inverse.yx, yy = q.yx * inverse.xy + q.yy * inverse.yy;
-  motion.rate.xx = update.keep * motion.rate.xx + update.gain * xx;
-  motion.rate.xy = update.keep * motion.rate.xy + update.gain * xy;
-  motion.rate.yx = update.keep * motion.rate.yx + update.gain * yx;
-  motion.rate.yy = update.keep * motion.rate.yy + update.gain * yy;
+  Matrix2 acceleration{xx, xy, yx, yy};
+  if (body.strain_mass_scale != 1)
+    acceleration = StrainMass(body, body.mass / body.moments.area, motion.h).acceleration(acceleration);
+  motion.rate.xx = update.keep * motion.rate.xx + update.gain * acceleration.xx;
+  motion.rate.xy = update.keep * motion.rate.xy + update.gain * acceleration.xy;
+  motion.rate.yx = update.keep * motion.rate.yx + update.gain * acceleration.yx;
+  motion.rate.yy = update.keep * motion.rate.yy + update.gain * acceleration.yy;
 }
 
 /// Puts the prescribed parts of the motion in place and books the work of the reactions. Moving the centroid
@@ -101,13 +105,41 @@ double kinetic_at_step(const Body& body, double density, const StepConditions& c
   return kinetic_energy(body, density, side, mirrored(at_step, side));
 }
 
+/// A body that moves as a whole, with supports or scaled strain, which the kernels do not know. `middle` gets
+/// its velocity at t_n.
+void accelerate_whole(const Body& body, const BodyForce& force, const Support& support,
+                      const StepConditions& conditions, Update update, BodyMotion& now, BodyMotion& middle,
+                      AccelerationWork& work) {
+  const double density = body.mass / body.moments.area;
+  const bool scaled = body.strain_mass_scale != 1;
+  // The terms of the turning frame, half of them before the forces and half after: both velocities are then
+  // those at t_n but for the forces, which the energy needs.
+  if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_behind / 2);
+  const BodyMotion before = now;
+  accelerate_freely(body, force, conditions, update, now);
+  impose_supports(body, density, support, conditions, update, before, now, work);
+  middle = velocity_at_step(before, now, conditions);
+  work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
+  if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
+  work.external_work += body.mass * gravity_work(conditions, before.velocity);
+  if (conditions.damping > 0) {
+    const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);
+    work.damping_loss += power * conditions.dt_behind / 2;
+    work.damping_loss_ahead += power * conditions.dt_ahead / 2;
+  }
+  if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_ahead / 2);
+}
+
 }  // namespace
 
 double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q) {
   const double translation = body.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
-  const double rest = body.kinematics == Kinematics::rigid ? body.inertia * p.spin * q.spin
-                                                           : product(body.moments, density, p.rate, q.rate);
-  return (translation + rest) / 2;
+  const auto rest = [&] {
+    if (body.kinematics == Kinematics::rigid) return body.inertia * p.spin * q.spin;
+    if (body.strain_mass_scale != 1) return StrainMass(body, density, q.h).product(p.rate, q.rate);
+    return product(body.moments, density, p.rate, q.rate);
+  };
+  return (translation + rest()) / 2;
 }
 
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
@@ -125,22 +157,13 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
                          updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
       continue;
     }
-    const double density = body.mass / body.moments.area;
-    BodyMotion& now = motion.bodies[i];
-    const BodyMotion before = now;
-    accelerate_freely(body, motion.forces[i], conditions, update, now);
-    impose_supports(body, density, supports[i], conditions, update, before, now, work);
-    BodyMotion& middle = at_step.bodies[i];
-    middle = velocity_at_step(before, now, conditions);
-    work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
-    if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
-    work.external_work += body.mass * gravity_work(conditions, before.velocity);
-    if (conditions.damping > 0) {
-      const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);
-      work.damping_loss += power * conditions.dt_behind / 2;
-      work.damping_loss_ahead += power * conditions.dt_ahead / 2;
-    }
+    accelerate_whole(body, motion.forces[i], supports[i], conditions, update, motion.bodies[i],
+                     at_step.bodies[i], work);
   }
+  blocks.over_scaled(work, [&](std::uint32_t i, AccelerationWork& part) {
+    accelerate_whole(model.bodies[i], motion.forces[i], supports[i], conditions, update, motion.bodies[i],
+                     at_step.bodies[i], part);
+  });
   return work;
 }
 

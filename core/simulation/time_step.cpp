@@ -152,7 +152,7 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
                  std::uint32_t j) {
   const Body &p = model.bodies[i], &q = model.bodies[j];
   if (p.kinematics != q.kinematics || scene.bodies[i].material != scene.bodies[j].material) return false;
-  if (p.kinematics == Kinematics::covered) return false;
+  if (p.kinematics == Kinematics::covered || p.strain_mass_scale != q.strain_mass_scale) return false;
   if (p.corner_end - p.corner_begin != q.corner_end - q.corner_begin) return false;
   for (std::uint32_t c = 0; c < p.corner_end - p.corner_begin; ++c) {
     const std::uint32_t a = p.corner_begin + c, b = q.corner_begin + c;

@@ -34,6 +34,14 @@ Eigen::MatrixXd mass_matrix(const Body& body, double density) {
     mass(row + 1, row + 1) = density * body.moments.yy;
     mass(row, row + 1) = mass(row + 1, row) = density * body.moments.xy;
   }
+  if (body.strain_mass_scale == 1) return mass;
+  // s M + (1 − s) (M r)(M r)ᵀ/(rᵀ M r) of the deformation part, r the spin (see StrainMass), with F = I.
+  const Eigen::Vector4d spin(0, -1, 1, 0);
+  const Eigen::Matrix4d unscaled = mass.bottomRightCorner<4, 4>();
+  const Eigen::Vector4d turning = unscaled * spin;
+  mass.bottomRightCorner<4, 4>() = body.strain_mass_scale * unscaled + (1 - body.strain_mass_scale) /
+                                                                           spin.dot(turning) * turning *
+                                                                           turning.transpose();
   return mass;
 }
 

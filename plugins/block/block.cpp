@@ -9,9 +9,16 @@ namespace {
 
 using namespace talus;
 
+constexpr Parameter parameters[] = {
+    number("strain_mass_scale", "-", 1, 1, 1e6,
+           "How many times as heavy strain is as motion without strain, which keeps its mass and inertia: a "
+           "longer "
+           "step (selective mass scaling)."),
+};
+
 class Block final : public CoverBuilder {
  public:
-  explicit Block(const double* /*values*/) {}
+  explicit Block(const double* values) : strain_mass_scale_(values[0]) {}
 
   /// The triangle is circumscribed to the circle about the centroid that reaches the farthest vertex.
   void build(const BodyShape& body, CoverSink& sink) const noexcept override {
@@ -29,12 +36,16 @@ class Block final : public CoverBuilder {
     const std::uint32_t patches[3] = {sink.add_patch(-half_side, -inradius),
                                       sink.add_patch(half_side, -inradius), sink.add_patch(0, 2 * inradius)};
     sink.add_element(patches, outline);
+    if (strain_mass_scale_ != 1) sink.scale_strain_mass(strain_mass_scale_);
   }
+
+ private:
+  double strain_mass_scale_;
 };
 
 constexpr Component components[] = {cover_builder<Block>(
     "block", "One triangle of three patches around each body: a block with uniform strain (first-order DDA).",
-    {})};
+    parameters)};
 
 }  // namespace
 

@@ -138,6 +138,7 @@ TEST_CASE("a cover that is wrong fails in the one check that is meant for it", "
   expect_one_failure({{"idle_patch", "count"},
                       {"loses_area", "area"},
                       {"names_wrong_sides", "boundary"},
+                      {"scales_strain", "count"},
                       {"steadies_askew", "affine"},
                       {"torn", "unity"}});
 }

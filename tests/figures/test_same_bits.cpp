@@ -65,6 +65,9 @@ TEST_CASE("Same bits with any number of threads, without the skin, and with any 
   check_bits(
       GENERATE(Short{"vaiont", shipped_file("vaiont"), {{"/time/end", "0.02"}, {"/settle/duration", "0.01"}}},
                Short{"brick_wall", shipped_file("brick_wall"), {{"/time/end", "0.0015"}}},
+               Short{"brick_wall with heavy strain",
+                     shipped_file("brick_wall"),
+                     {{"/time/end", "0.0015"}, {"/cover", R"({"model": "block", "strain_mass_scale": 9})"}}},
                Short{"contact_patch",
                      shipped_file("contact_patch"),
                      {{"/time/end", "0.0001"}, {"/settle/duration", "0.0005"}}}));

@@ -96,5 +96,5 @@ TEST_CASE("What does not fit is refused when it is offered", "[plugin]") {
   const Registry registry = offered_from({scratch.folder()});
   CHECK(registry.offered.empty());
   REQUIRE(registry.refused.size() == 1);
-  CHECK_THAT(registry.refused[0].reason, Contains("found ABI 45"));
+  CHECK_THAT(registry.refused[0].reason, Contains("found ABI 46"));
 }

@@ -40,20 +40,25 @@ class CoverNotes final : public CoverSink {
     ++steadied;
   }
   void refuse(const char* why) noexcept override { refusal = why; }
+  void scale_strain_mass(double factor) noexcept override {
+    scale = factor;
+    ++scaled;
+  }
   void make_rigid() noexcept override { ++rigid; }
 
   std::vector<Vec2> stars;
   std::vector<std::array<std::uint32_t, 3>> elements;
   std::vector<AreaMoments> regions;
-  int rigid = 0, boundary = 0, steadied = 0;
+  int rigid = 0, boundary = 0, steadied = 0, scaled = 0;
+  double scale = 1;
   std::string refusal;
 };
 
-Made<CoverBuilder> builder(const char* name) {
+Made<CoverBuilder> builder(const char* name, const std::vector<double>& values) {
   const RegisteredComponent* found = shipped_registry().find(ComponentKind::cover_builder, name);
   REQUIRE(found != nullptr);
-  CHECK(found->component->parameter_count == 0);
-  return make<CoverBuilder>(*found, {});
+  REQUIRE(found->component->parameter_count == values.size());
+  return make<CoverBuilder>(*found, values);
 }
 
 /// Outline of a ring about its centroid.
@@ -100,7 +105,7 @@ TEST_CASE("a block is one element of three patches on a regular triangle around 
   for (const Ring& ring : rings) {
     const Drawn drawn(ring);
     CoverNotes notes;
-    const auto block = builder("block");
+    const auto block = builder("block", {1});
     block->build(drawn.shape(), notes);
     CHECK(notes.rigid == 0);
     REQUIRE(notes.stars.size() == 3);
@@ -134,7 +139,7 @@ TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rig
   for (const Ring& ring : rings) {
     const Drawn drawn(ring);
     CoverNotes notes;
-    builder("rigid")->build(drawn.shape(), notes);
+    builder("rigid", {})->build(drawn.shape(), notes);
     CHECK(notes.rigid == 1);
     CHECK(notes.stars.empty());
     CHECK(notes.elements.empty());
@@ -142,11 +147,23 @@ TEST_CASE("a rigid cover asks for a rigid body and nothing else", "[plugins][rig
 }
 
 TEST_CASE("a block and a rigid body cannot be cut by discontinuities", "[plugins][block][rigid]") {
-  for (const char* name : {"block", "rigid"}) {
+  for (const auto& [name, values] :
+       {std::pair{"block", std::vector<double>{1}}, std::pair{"rigid", std::vector<double>{}}}) {
     CoverNotes notes;
-    builder(name)->build(Drawn(rings[0]).cut(), notes);
+    builder(name, values)->build(Drawn(rings[0]).cut(), notes);
     CHECK(notes.refusal.find("cut by discontinuities") != std::string::npos);
     CHECK(notes.elements.empty());
     CHECK(notes.rigid == 0);
   }
+}
+
+TEST_CASE("a block says how heavy its strain is, where that is not as it is", "[plugins][block]") {
+  const Drawn drawn(rings[2]);
+  CoverNotes plain, heavy;
+  builder("block", {1})->build(drawn.shape(), plain);
+  builder("block", {4})->build(drawn.shape(), heavy);
+  CHECK(plain.scaled == 0);
+  CHECK(heavy.scaled == 1);
+  CHECK(heavy.scale == 4);
+  CHECK(heavy.stars.size() == 3);
 }

@@ -46,6 +46,7 @@ class MeshNotes final : public CoverSink {
   void steady_patch(std::uint32_t, const std::uint32_t[3], const double[3], double) noexcept override {
     ++steadied;
   }
+  void scale_strain_mass(double) noexcept override { ++scaled; }
   void make_rigid() noexcept override { ++rigid; }
   void refuse(const char* why) noexcept override { refusal = why; }
 
@@ -54,7 +55,7 @@ class MeshNotes final : public CoverSink {
   std::vector<Ring> regions;
   std::vector<BoundaryVertex> open;
   std::vector<std::vector<BoundaryVertex>> loops;
-  int steadied = 0, rigid = 0;
+  int steadied = 0, rigid = 0, scaled = 0;
   std::string refusal;
 };
 

@@ -5,6 +5,7 @@
 #include "simulation/deformation.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/loads.hpp"
+#include "simulation/strain_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,8 @@ class Oscillator {
       result[i].h = {
           (q.xx * inverse.xx + q.xy * inverse.yx) / scale, (q.xx * inverse.xy + q.xy * inverse.yy) / scale,
           (q.yx * inverse.xx + q.yy * inverse.yx) / scale, (q.yx * inverse.xy + q.yy * inverse.yy) / scale};
+      if (body.strain_mass_scale == 1) continue;
+      result[i].h = StrainMass(body, body.mass / body.moments.area, {}).acceleration(result[i].h);
     }
     return result;
   }

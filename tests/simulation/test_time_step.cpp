@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 using namespace talus;
@@ -94,6 +95,25 @@ TEST_CASE("a block among four neighbours: the vote is safe and within a factor o
   CHECK(among_moving.ratio() <= 3);
   CHECK(among_fixed.ratio() >= 1);
   CHECK(among_fixed.ratio() <= 3);
+}
+
+TEST_CASE("with heavy strain among four neighbours the vote is safe and within a factor of three",
+          "[simulation][time_step][strain_mass]") {
+  for (const double scale : {4.0, 100.0}) {
+    WorkingScene text = cross(1e11, "block", "");
+    text.bodies = "";
+    for (const auto& [name, x, y] :
+         {std::tuple{"middle", 0, 0}, std::tuple{"east", 1, 0}, std::tuple{"north", 0, 1},
+          std::tuple{"west", -1, 0}, std::tuple{"south", 0, -1}})
+      text.bodies += (text.bodies.empty() ? "" : ", ") +
+                     box(name, x, y, x + 1, y + 1,
+                         fmt::format(R"("cover": {{"model": "block", "strain_mass_scale": {}}})", scale));
+    const Judged judged = judge(text, pressed(1e-4));
+    INFO(scale << ": true " << judged.exact << " s, vote " << judged.voted);
+    CHECK(judged.exact > judge(cross(1e11, "block", ""), pressed(1e-4)).exact);
+    CHECK(judged.ratio() >= 1);
+    CHECK(judged.ratio() <= 3);
+  }
 }
 
 TEST_CASE("the vote is an upper bound of the frequency, whatever the bodies", "[simulation][time_step]") {

@@ -70,6 +70,10 @@ class CoverSink {
   virtual void steady_patch(std::uint32_t patch, const std::uint32_t to[3], const double weights[3],
                             double inertia_area) noexcept = 0;
 
+  /// Of one element of three patches: what its strain modes move is `scale` times as heavy, at least 1.
+  /// Motion of the body as a rigid one keeps its mass and inertia (selective mass scaling).
+  virtual void scale_strain_mass(double scale) noexcept = 0;
+
   /// The body moves as a rigid one: three unknowns, no patch, no element.
   virtual void make_rigid() noexcept = 0;
 

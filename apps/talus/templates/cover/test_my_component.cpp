@@ -45,6 +45,7 @@ class Record final : public talus::CoverSink {
   void add_boundary_vertex(double, double, std::uint32_t, std::uint32_t) noexcept override {}
   void close_boundary_loop() noexcept override {}
   void steady_patch(std::uint32_t, const std::uint32_t[3], const double[3], double) noexcept override {}
+  void scale_strain_mass(double) noexcept override {}
   void make_rigid() noexcept override {}
   void refuse(const char* why) noexcept override { refusal = why; }
 };
