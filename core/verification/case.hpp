@@ -34,6 +34,7 @@ std::span<const Case> friction_cases();
 std::span<const Case> impact_cases();
 std::span<const Case> statics_cases();
 std::span<const Case> continuum_cases();
+std::span<const Case> mass_cases();
 std::span<const Case> hertz_cases();
 std::span<const Case> example_cases();
 std::span<const Case> same_bits_cases();

@@ -29,9 +29,9 @@ bool fits(const std::string& pattern, const Case& each) {
 std::vector<const Case*> all_cases() {
   std::vector<const Case*> all;
   for (const std::span<const Case> some :
-       {incline_cases(), friction_cases(), impact_cases(), statics_cases(), continuum_cases(), hertz_cases(),
-        example_cases(), same_bits_cases(), ratio_cases(), shape_cases(), step_cases(), many_cases(),
-        metamorphic_cases()}) {
+       {incline_cases(), friction_cases(), impact_cases(), statics_cases(), continuum_cases(), mass_cases(),
+        hertz_cases(), example_cases(), same_bits_cases(), ratio_cases(), shape_cases(), step_cases(),
+        many_cases(), metamorphic_cases()}) {
     for (const Case& each : some) all.push_back(&each);
   }
   return all;

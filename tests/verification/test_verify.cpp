@@ -34,6 +34,7 @@ std::vector<const Case*> quick_cases() {
                        "continuum/turns",
                        "continuum/inertia",
                        "continuum/critical_step",
+                       "mass",
                        "same_bits/origin",
                        "same_bits/absolute_coordinates",
                        "extremes/mass_ratio",
