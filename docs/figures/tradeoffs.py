@@ -3,7 +3,7 @@
 
     python3 docs/figures/tradeoffs.py [--talus build/release/bin/talus] [--out out/tradeoffs] [section ...]
 
-Needs Python 3 alone; takes some four minutes, less where --out holds the runs of an earlier call. The pictures of
+Needs Python 3 alone; takes some five minutes, less where --out holds the runs of an earlier call. The pictures of
 docs/figures/tradeoffs are the study.svg that the program wrote.
 """
 import argparse
@@ -151,6 +151,45 @@ def slivers(studies):
     studies.table("slivers", study, folder, [("off the theory by", off), ("steps to settle", lambda run: f"{record(run)['settle_steps']:,}")])
 
 
+STEPPED = ([f"mesh of 0.2 m, ν = {nu}" for nu in (0, 0.25, 0.45)] + [f"whole lattice of 0.25 m, ν = {nu}" for nu in (0, 0.25, 0.45)]
+           + [f"lattice of 0.25 m cut 1/{share} of a row above vertices, ν = 0.25" for share in ("100", "10,000")])
+
+
+def lumped(studies):
+    """Row sums against the consistent mass, from the reference cases."""
+    file = ROOT / studies.out / "mass.json"
+    done = subprocess.run([studies.talus, "verify", "mass", "--json", str(file)], cwd=ROOT, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout + done.stderr)
+    cases = {case["name"]: [row["value"] for row in case["rows"]] for case in json.loads(file.read_text(encoding="utf-8"))["cases"]}
+    shown = lambda value: f"{value:+.2g} %"
+    rows = []
+    for i, size in enumerate((0.5, 0.25, 0.125)):
+        modes = [cases["frequencies"][9 * i + 3 * mode:9 * i + 3 * mode + 2] for mode in range(3)]
+        rows.append([size, *(shown(value) for mode in modes for value in mode)])
+    heads = [f"mode {mode}: {mass}" for mode in (1, 2, 3) for mass in ("row sums", "consistent")]
+    put_table(PAGE, "lumped frequencies", ["size [m]", *heads], rows)
+    found = iter(cases["step"] + cases["cut"][2:])
+    rows = [[what, *(significant(next(found)) for _ in range(3))] for what in STEPPED]
+    put_table(PAGE, "lumped step", ["body", "row sums [s]", "consistent [s]", "quotient"], rows)
+
+
+def strain_mass(studies):
+    covers = [{"model": "block"}] + [{"model": "block", "strain_mass_scale": s} for s in (4, 16, 64, 256)] + [{"model": "rigid"}]
+    vary = ["--vary", "/cover=" + ",".join(json.dumps(c, separators=(",", ":")) for c in covers), *QUIET]
+    sunk = lambda run: significant(-last_row(run)["block.uy"], 4)
+    soft = [w for key in ("normal", "tangential") for w in ("--set", f"/interfaces/0/{key}_stiffness=5e8")]
+    for name, joints in (("strain_mass_stiff", []), ("strain_mass_soft", soft)):
+        study, folder = studies.study(name, [
+            "scenes/brick_wall.json", "--metric", "block.uy", *vary, "--set", "/time/end=0.2", *joints], repeat=3)
+        studies.table(name, study, folder, [("the top sinks by [m]", sunk)])
+    study, folder = studies.study("strain_mass_impact", [
+        "scenes/collision.json", "--metric", "B.speed", *vary, "--set", "/time/dt=1e-5", "--set", "/output/history=0.5"], repeat=3)
+    bounce_off = lambda run: percent(1 - (last_row(run)["B.vx"] - last_row(run)["A.vx"]) / 0.5)
+    critical = lambda run: significant(record(run)["critical_dt [s]"])
+    studies.table("strain_mass_impact", study, folder, [("critical Δt [s]", critical), ("restitution short by", bounce_off)])
+
+
 def vote(studies):
     study, folder = studies.study("vote", [
         "scenes/incline.json", "--vary", '/time/dt="auto",3e-5,6e-5,9e-5,1.2e-4,1.5e-4,1.8e-4', "--reference", REFERENCE, *QUIET])
@@ -211,7 +250,12 @@ def output(studies):
     put_table(PAGE, "output", ["output", "Δt [s]", "steps", "time in the steps, over the first", "writing over stepping", "MB"], rows)
 
 
-SECTIONS = {s.__name__: s for s in (bounce, stiffness, laws, covers, bending, slivers, vote, threads, output)}
+def mass(studies):
+    for part in (lumped, strain_mass, slivers):
+        part(studies)
+
+
+SECTIONS = {s.__name__: s for s in (bounce, stiffness, laws, covers, bending, mass, vote, threads, output)}
 
 
 def main():
