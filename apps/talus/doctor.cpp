@@ -43,6 +43,22 @@ void say_when_energy_was_lost(const std::filesystem::path& folder) {
              at);
 }
 
+/// How the run ended, as its record says.
+std::string tell_end(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "run.json";
+  try {
+    const auto record = nlohmann::json::parse(read_whole_file(file));
+    const std::string end = record.at("end"), steps = record.at("steps").dump();
+    fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), end,
+               record.at("t [s]").get<double>(), steps);
+    if (end == "stopped") fmt::print("{}\n", record.at("trouble").get<std::string>());
+    for (const auto& warning : record.at("warnings")) fmt::print("warned: {}\n", warning.get<std::string>());
+    return end;
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(fmt::format("'{}' is no record of a run", file.string()));
+  }
+}
+
 }  // namespace
 
 Usage usage_of_doctor() {
@@ -61,14 +77,7 @@ int doctor_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::filesystem::path folder = text_option(*given, "FOLDER");
-  const auto record = nlohmann::json::parse(read_whole_file(folder / "run.json"), nullptr, false);
-  if (!record.is_object() || !record.contains("end"))
-    throw InputError(fmt::format("'{}' is no record of a run", (folder / "run.json").string()));
-  const std::string end = record["end"];
-  fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), end, record["t [s]"].get<double>(),
-             record["steps"].get<std::uint64_t>());
-  if (end == "stopped") fmt::print("{}\n", record["trouble"].get<std::string>());
-  for (const auto& warning : record["warnings"]) fmt::print("warned: {}\n", warning.get<std::string>());
+  const std::string end = tell_end(folder);
   say_when_energy_was_lost(folder);
   const std::filesystem::path file = checkpoint_file(folder);
   if (end != "stopped") return exit_code::ok;

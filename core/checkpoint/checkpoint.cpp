@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -22,17 +23,12 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view first_line = "talus checkpoint 1\n";
 constexpr std::size_t hash_digits = 32;
 
-/// The layout of a state is that of the program.
-std::string this_program() {
-  return fmt::format("talus " TALUS_VERSION ", interface {}", abi_number);
-}
-
 Json header_of(const Checkpoint& checkpoint) {
   Json overrides = Json::array(), folders = Json::array(), libraries = Json::array();
   for (const Override& change : checkpoint.overrides) overrides.push_back({change.pointer, change.value});
   for (const auto& folder : checkpoint.plugin_folders) folders.push_back(folder.string());
   for (const auto& library : checkpoint.libraries) libraries.push_back({library.file, library.hash});
-  return {{"written_by", this_program()},
+  return {{"written_by", checkpoint_writer()},
           {"reason", checkpoint.reason},
           {"scene_file", checkpoint.scene_file.string()},
           {"scene_text", checkpoint.scene_text},
@@ -50,13 +46,25 @@ Json header_of(const Checkpoint& checkpoint) {
           {"continued [s]", checkpoint.continued}};
 }
 
+/// What is no count, or beyond all counts, would be undefined to convert.
+template <class Integer>
+Integer count_of(const Json& header, const char* key, const std::string& file) {
+  const Json& value = header.at(key);
+  const std::uint64_t most = std::numeric_limits<Integer>::max();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+    throw InputError(fmt::format(
+        "'{}' is damaged: its \"{}\" is no count; take an older copy, or run the scene anew", file, key));
+  }
+  return value.get<Integer>();
+}
+
 Checkpoint checkpoint_of(const Json& header, const std::string& file) {
   const std::string writer = header.at("written_by");
-  if (writer != this_program()) {
+  if (writer != checkpoint_writer()) {
     throw InputError(
         fmt::format("'{}' was written by {}, this is {}: states of other versions cannot be continued; use "
                     "that version, or run the scene anew",
-                    file, writer, this_program()));
+                    file, writer, checkpoint_writer()));
   }
   Checkpoint checkpoint;
   checkpoint.reason = header.at("reason");
@@ -72,16 +80,20 @@ Checkpoint checkpoint_of(const Json& header, const std::string& file) {
   if (!level) throw InputError(fmt::format("'{}' names an unknown instruction set", file));
   checkpoint.simd = *level;
   checkpoint.neighbour_skin = header.at("neighbour_skin");
-  checkpoint.threads = header.at("threads");
+  checkpoint.threads = count_of<int>(header, "threads", file);
   checkpoint.model_hash = header.at("model_hash");
   checkpoint.time = header.at("t [s]");
   checkpoint.settling = header.at("settling");
-  checkpoint.steps = header.at("steps");
+  checkpoint.steps = count_of<std::uint64_t>(header, "steps", file);
   checkpoint.continued = header.at("continued [s]").get<std::vector<double>>();
   return checkpoint;
 }
 
 }  // namespace
+
+std::string checkpoint_writer() {
+  return fmt::format("talus " TALUS_VERSION ", interface {}", abi_number);
+}
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   const std::string header = header_of(checkpoint).dump(-1, ' ', false, Json::error_handler_t::replace);

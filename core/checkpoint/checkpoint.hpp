@@ -37,6 +37,9 @@ struct Checkpoint {
   std::string state;  ///< bytes of an Archive
 };
 
+/// What this program calls itself in a checkpoint: the layout of a state is that of the program.
+std::string checkpoint_writer();
+
 /// Writes a checkpoint over an older one: a new file, flushed to the disk, that then takes its name. Throws
 /// std::system_error.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);

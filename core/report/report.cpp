@@ -138,38 +138,38 @@ Json run_json(const fs::path& folder, const std::string& name) {
 
 std::string settings_words(const Json& record, const std::string& but) {
   std::string words;
-  for (const Json& change : record["settings"]["set"]) {
-    const std::string pointer = change["pointer"];
-    if (pointer != but) words += " --set " + shell_word(pointer + "=" + change["value"].get<std::string>());
+  for (const Json& change : record.at("settings").at("set")) {
+    const std::string pointer = change.at("pointer");
+    if (pointer != but) words += " --set " + shell_word(pointer + "=" + change.at("value").get<std::string>());
   }
   return words;
 }
 
 std::string command_of(const Json& page) {
-  const Json& record = page["runs"][0]["record"];
-  const std::string scene = shell_word(record["scene"]["file"]);
+  const Json& record = page.at("runs").at(0).at("record");
+  const std::string scene = shell_word(record.at("scene").at("file"));
   if (page["comparison"].is_null()) return "talus run " + scene + settings_words(record, "");
   const Json& comparison = page["comparison"];
-  std::string varied = comparison["varied"];
-  for (const Json& run : comparison["runs"])
-    varied += (varied.find('=') == std::string::npos ? '=' : ',') + run["value"].get<std::string>();
+  std::string varied = comparison.at("varied");
+  for (const Json& run : comparison.at("runs"))
+    varied += (varied.find('=') == std::string::npos ? '=' : ',') + run.at("value").get<std::string>();
   std::string command = "talus compare " + scene + " --vary " + shell_word(varied);
   if (comparison.contains("reference"))
-    command += " --reference " + shell_word(comparison["reference"]["file"].get<std::string>());
-  return command + settings_words(record, comparison["varied"]);
+    command += " --reference " + shell_word(comparison.at("reference").at("file").get<std::string>());
+  return command + settings_words(record, comparison.at("varied"));
 }
 
 Json page_json(const fs::path& folder) {
   Json page{{"comparison", nullptr}, {"reference", nullptr}, {"runs", Json::array()}};
   if (fs::exists(folder / "compare.json")) {
     page["comparison"] = json_in(folder / "compare.json");
-    for (const Json& run : page["comparison"]["runs"])
-      page["runs"].push_back(run_json(folder / run["folder"].get<std::string>(), run["value"]));
+    for (const Json& run : page["comparison"].at("runs"))
+      page["runs"].push_back(run_json(folder / run.at("folder").get<std::string>(), run.at("value")));
     if (page["comparison"].contains("reference"))
-      page["reference"] = curves_in(page["comparison"]["reference"]["file"].get<std::string>());
+      page["reference"] = curves_in(page["comparison"].at("reference").at("file").get<std::string>());
   } else if (fs::exists(folder / "run.json")) {
     const Json record = json_in(folder / "run.json");
-    page["runs"].push_back(run_json(folder, record["scene"].value("title", "")));
+    page["runs"].push_back(run_json(folder, record.at("scene").value("title", "")));
   } else {
     throw InputError(fmt::format("'{}' holds neither run.json nor compare.json: it is no folder of results",
                                  folder.string()));
@@ -195,7 +195,12 @@ std::string embedded(const Json& json) {
 }  // namespace
 
 std::string report_page(const fs::path& folder) {
-  const Json data = page_json(folder);
+  Json data;
+  try {
+    data = page_json(folder);
+  } catch (const Json::exception& problem) {
+    throw InputError(fmt::format("'{}' does not hold what a run writes: {}", folder.string(), problem.what()));
+  }
   std::string title = data["runs"][0]["record"]["scene"].value("title", "");
   if (title.empty()) title = data["runs"][0]["record"]["scene"].value("file", "talus");
   std::string script = "'use strict';\n(async () => {\n";

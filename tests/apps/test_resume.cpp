@@ -130,6 +130,15 @@ TEST_CASE("doctor says which step was the first bad one and what to change", "[a
   CHECK(good.code == 0);
   CHECK_THAT(good.out, Contains("finished at t = ") && Contains("the energy balance misses"));
   CHECK(call_talus(scratch.folder(), {"doctor", "nowhere"}).code == 5);
+  for (const char* record : {"{\"end\": \"stopped\"}", "{\"end\": 3}", "[", "[]"}) {
+    CAPTURE(record);
+    scratch.write("good/run.json", record);
+    const Call none = call_talus(scratch.folder(), {"doctor", "good"});
+    CHECK(none.code == 2);
+    CHECK_THAT(none.err, Contains("'good/run.json' is no record of a run"));
+    const Call report = call_talus(scratch.folder(), {"report", "good"});
+    CHECK(report.code == 2);
+  }
 }
 
 TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume]") {

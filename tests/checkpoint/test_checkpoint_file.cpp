@@ -1,9 +1,11 @@
 #include "checkpoint/checkpoint.hpp"
+#include "output/hash.hpp"
 #include "output/input_error.hpp"
 #include "output/scratch.hpp"
 #include "output/whole_file.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace talus;
 using Catch::Matchers::Contains;
@@ -80,4 +82,26 @@ TEST_CASE("A file that is no checkpoint, or one of another program, is refused i
   write_whole_file(file, "talus checkpoint 7\n");
   CHECK_THROWS_WITH(read_checkpoint(file), Contains("of another form"));
   CHECK_THROWS_AS(read_checkpoint(scratch.folder() / "missing.talus"), std::system_error);
+}
+
+TEST_CASE("A count in a checkpoint that is no count is refused by its name", "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus";
+  write_checkpoint(file, some_checkpoint());
+  const std::string whole = read_whole_file(file);
+  const std::string header_on = whole.substr(whole.find('{'), whole.size() - whole.find('{') - 32);
+  const auto with = [&](const std::string& old_text, const std::string& new_text) {
+    std::string changed = header_on;
+    changed.replace(changed.find(old_text), old_text.size(), new_text);
+    std::string text = fmt::format("talus checkpoint 1\n{}\n{}", changed.size() + 32, changed);
+    return text + hash_of_bytes(text);
+  };
+  CHECK(read_checkpoint_text(with("\"steps\":12", "\"steps\":13"), "it").steps == 13);
+  for (const char* value : {"4.07e88", "-1", "12.5", "true"}) {
+    CAPTURE(value);
+    CHECK_THROWS_WITH(read_checkpoint_text(with("\"steps\":12", fmt::format("\"steps\":{}", value)), "it"),
+                      Contains("'it' is damaged: its \"steps\" is no count"));
+  }
+  CHECK_THROWS_WITH(read_checkpoint_text(with("\"threads\":2", "\"threads\":2147483648"), "it"),
+                    Contains("its \"threads\" is no count"));
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 namespace talus::fuzz {
 
@@ -57,9 +58,17 @@ void take_out(std::string_view bytes) {
   }
 }
 
+/// As if this program had written it: states of others are refused at once.
+std::string with_this_writer(std::string_view header_on) {
+  const std::size_t end = header_on.find("\",");
+  if (!header_on.starts_with("{\"written_by\":\"") || end == std::string_view::npos)
+    return std::string(header_on);
+  return fmt::format("{{\"written_by\":\"{}{}", checkpoint_writer(), header_on.substr(end));
+}
+
 }  // namespace
 
-/// As they are, where length and hash refuse nearly all; with both put right; and as a state.
+/// As they are, where length and hash refuse nearly all; with both and the writer put right; and as a state.
 void read_checkpoint(std::string_view bytes) {
   take(bytes);
   constexpr std::string_view first_line = "talus checkpoint 1\n";
@@ -70,8 +79,9 @@ void read_checkpoint(std::string_view bytes) {
   }
   constexpr std::size_t hash_digits = 32;
   rest = rest.substr(0, rest.size() - std::min(rest.size(), hash_digits));
+  const std::string own = with_this_writer(rest);
   std::string right(first_line);
-  right += fmt::format("{}\n{}", rest.size() + hash_digits, rest);
+  right += fmt::format("{}\n{}", own.size() + hash_digits, own);
   right += hash_of_bytes(right);
   take(right);
   take_out(rest.substr(std::min(rest.find('\n'), rest.size())));
