@@ -62,8 +62,10 @@ int report(const SceneError& problem, int code, const Log& log) {
                                                                  {"pointer", mistake.pointer}});
   }
   if (log.in_json()) return code;
-  fmt::print(stderr, "{} mistake{} in the scene\n", problem.mistakes.size(),
-             problem.mistakes.size() == 1 ? "" : "s");
+  const std::size_t listed = problem.mistakes.size() - (problem.more > 0 ? 1 : 0);
+  fmt::print(stderr, "{} mistake{} in the scene{}\n", listed + problem.more,
+             listed + problem.more == 1 ? "" : "s",
+             problem.more > 0 ? fmt::format(", the first {} of them shown", listed) : "");
   return code;
 }
 

@@ -134,7 +134,7 @@ Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
     for (const RefusedLibrary& refused : registry.refused) {
       log.warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
     }
-    if (!allow_plugins && names_a_library(file, problem)) throw LibrariesNotAllowed(problem.mistakes);
+    if (!allow_plugins && names_a_library(file, problem)) throw LibrariesNotAllowed(problem);
     throw;
   }
 }

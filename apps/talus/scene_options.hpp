@@ -39,7 +39,7 @@ std::vector<std::string> named_libraries(const std::filesystem::path& scene_file
 /// Mistakes of a scene, one of which is that it names libraries which nobody allowed.
 class LibrariesNotAllowed : public SceneError {
  public:
-  using SceneError::SceneError;
+  explicit LibrariesNotAllowed(const SceneError& problem) : SceneError(problem) {}
 };
 
 /// Reads the scene. Throws LibrariesNotAllowed where it needs --allow-plugins. Warns of libraries that were

@@ -46,8 +46,8 @@ std::string Mistake::text() const {
                          : fmt::format("{}: {}: {}", place, pointer, message);
 }
 
-SceneError::SceneError(std::vector<Mistake> all)
-    : std::runtime_error(all_lines(all)), mistakes(std::move(all)) {}
+SceneError::SceneError(std::vector<Mistake> all, std::size_t unlisted)
+    : std::runtime_error(all_lines(all)), mistakes(std::move(all)), more(unlisted) {}
 
 std::string command_of(const Override& override_) {
   return fmt::format("--set {}={}", override_.pointer, override_.value);
@@ -87,9 +87,8 @@ void Mistakes::move(const std::function<std::string(const std::string&)>& to) {
   }
 }
 
-std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string& file,
-                                      const std::vector<Override>& overrides,
-                                      std::vector<Mistake> parsed) const {
+SceneError Mistakes::placed(const std::string& text, const std::string& file,
+                            const std::vector<Override>& overrides, std::vector<Mistake> parsed) const {
   std::set<std::string> wanted;
   for (const Found& found : found_) {
     for (std::string pointer = found.pointer;; pointer = parent_of(pointer)) {
@@ -117,13 +116,13 @@ std::vector<Mistake> Mistakes::placed(const std::string& text, const std::string
   std::stable_sort(placed.begin(), placed.end(), [](const Mistake& a, const Mistake& b) {
     return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
   });
-  const std::size_t more = untold_ + placed.size() - std::min(placed.size(), many_);
+  const std::size_t listed = std::min(placed.size(), many_), more = untold_ + placed.size() - listed;
   if (more > 0) {
-    placed.resize(many_);
+    placed.resize(listed);
     placed.push_back({file, 0, 0, {}, fmt::format("and {} more mistakes", more)});
   }
   for (Mistake& mistake : placed) mistake.pointer = clipped(mistake.pointer, longest_pointer);
-  return placed;
+  return SceneError(std::move(placed), more);
 }
 
 }  // namespace talus

@@ -31,8 +31,8 @@ class Mistakes {
   /// In the order of the file, then those of the overrides. A mistake in a value that an override wrote
   /// points at the override. `parsed` are those that the parser placed already. Of very many the first ones,
   /// and one that says how many more.
-  std::vector<Mistake> placed(const std::string& text, const std::string& file,
-                              const std::vector<Override>& overrides, std::vector<Mistake> parsed) const;
+  SceneError placed(const std::string& text, const std::string& file, const std::vector<Override>& overrides,
+                    std::vector<Mistake> parsed) const;
 
  private:
   void keep(Found found);

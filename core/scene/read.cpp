@@ -101,7 +101,7 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
   }
   mistakes.move([&](const std::string& pointer) { return expansion.origin_of(pointer); });
   if (mistakes.count() != 0 || !parsed.mistakes.empty()) {
-    throw SceneError(mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes)));
+    throw mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes));
   }
   reading.scene.resolved = root.resolved.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   return std::move(reading.scene);

@@ -19,11 +19,12 @@ struct Mistake {
   std::string text() const;  ///< "file:line:column: pointer: message"
 };
 
-/// All mistakes of a scene at once.
+/// All mistakes of a scene at once. Of very many the first ones; the last entry then says how many more.
 class SceneError : public std::runtime_error {
  public:
-  explicit SceneError(std::vector<Mistake> mistakes);
+  explicit SceneError(std::vector<Mistake> mistakes, std::size_t more = 0);
   std::vector<Mistake> mistakes;
+  std::size_t more;  ///< that `mistakes` does not list
 };
 
 /// "--set /pointer=value"; the value is JSON, or a bare word taken as a string.

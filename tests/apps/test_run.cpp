@@ -4,6 +4,7 @@
 #include "output/whole_file.hpp"
 #include "program.hpp"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -134,6 +135,21 @@ TEST_CASE("bad files and scenes have their exit codes", "[apps][run]") {
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
   scratch.write("file", "");
   CHECK(call_talus(scratch.folder(), {"run", "bad.json", "--set", "/nope=1"}).code == 2);
+}
+
+TEST_CASE("the closing line counts all mistakes, also those that are not shown", "[apps][run]") {
+  const Scratch scratch;
+  const auto closing_line = [&](int mistakes) {
+    std::string keys;
+    for (int i = 0; i < mistakes; ++i) keys += fmt::format(R"("k{}": 1, )", i);
+    scratch.write("scene.json", small_scene().insert(small_scene().find('{') + 1, keys));
+    const std::string err = call_talus(scratch.folder(), {"run", "scene.json"}).err;
+    return err.substr(err.rfind('\n', err.size() - 2) + 1);
+  };
+  CHECK(closing_line(1) == "1 mistake in the scene\n");
+  CHECK(closing_line(1000) == "1000 mistakes in the scene\n");
+  CHECK(closing_line(1001) == "1001 mistakes in the scene, the first 1000 of them shown\n");
+  CHECK(closing_line(100'500) == "100500 mistakes in the scene, the first 1000 of them shown\n");
 }
 
 TEST_CASE("validate says what a scene is", "[apps][validate]") {

@@ -1,4 +1,5 @@
 #include "scene/bad_scene.hpp"
+#include "scene/mistakes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -257,6 +258,38 @@ TEST_CASE("the error holds one line per mistake: file, line, column, pointer, wo
   CHECK_THROWS_WITH(read_scene_text(text, "scene.json", registry),
                     "scene.json:18:19: /time/end: -5 is out of range: expected a number [s] greater than 0\n"
                     "scene.json:18:23: /time/step: unknown key; allowed here: end, dt, safety");
+}
+
+TEST_CASE("of very many mistakes the first thousand are listed, and how many more there are is said",
+          "[scene]") {
+  Registry registry = sample::registry();
+  const auto error_of = [&](int mistakes) {
+    std::string keys;
+    for (int i = 0; i < mistakes; ++i) keys += ", \"k" + std::to_string(i) + "\": 1";
+    try {
+      read_scene_text(sample::good_but("\"end\": 5", "\"end\": 5" + keys), "scene.json", registry);
+    } catch (const SceneError& error) {
+      return error;
+    }
+    return SceneError({});
+  };
+  const SceneError all = error_of(1000), cut = error_of(1234);
+  CHECK(all.mistakes.size() == 1000);
+  CHECK(all.more == 0);
+  REQUIRE(cut.mistakes.size() == 1001);
+  CHECK(cut.more == 234);
+  CHECK(cut.mistakes[999].pointer == "/time/k999");
+  CHECK(cut.mistakes[1000].text() == "scene.json: and 234 more mistakes");
+}
+
+TEST_CASE("mistakes that say the same of one place are listed once, however many there were", "[scene]") {
+  Mistakes mistakes;
+  for (int i = 0; i < 100'007; ++i) mistakes.add("/blocks/0/" + std::to_string(i), "too thin");
+  mistakes.move([](const std::string&) { return std::string("/blocks/0"); });
+  const SceneError error = mistakes.placed(R"({"blocks": [{}]})", "scene.json", {}, {});
+  REQUIRE(error.mistakes.size() == 2);  // it and what was beyond all keeping
+  CHECK(error.mistakes[0].text() == "scene.json:1:13: /blocks/0: too thin");
+  CHECK(error.mistakes[1].text() == "scene.json: and 7 more mistakes");
 }
 
 TEST_CASE("of two equally specific rows neither is taken", "[scene]") {
