@@ -291,8 +291,9 @@ bool ContactStage::call_law(const Model& model, const MotionState& motion, const
                              conditions.dt,
                              conditions.hold_stick,
                              conditions.bonds_form};
-    law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
-                           conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
+    if (count > 0)
+      law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
+                             conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
     chunk_totals_[chunk] = total({active_.data() + begin, count}, begin);
   });
   return std::none_of(chunk_totals_.begin(), chunk_totals_.end(),

@@ -124,6 +124,7 @@ TEST_CASE("What sleeps is asked of neither law nor material", "[costs]") {
   CHECK(awake.asked.pairs == steps + 1);
   text.rest += R"("sleep": {"after": 0.005},)";
   const Course asleep = course_of(text);
+  CHECK(asleep.asked.law < steps / 2);  // not even about none of its pairs
   CHECK(asleep.asked.pairs < steps / 2);
   CHECK(asleep.asked.material < steps / 2);
 }
