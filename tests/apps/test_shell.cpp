@@ -62,7 +62,7 @@ TEST_CASE("completion knows bash alone", "[apps][shell]") {
   CHECK_THAT(call.err, Contains("SHELL fish") && Contains("bash alone"));
 }
 
-TEST_CASE("help explains commands", "[apps]") {
+TEST_CASE("help COMMAND prints what COMMAND --help prints, and guesses at misspelt commands", "[apps]") {
   const Scratch scratch;
   CHECK(call_talus(scratch.folder(), {"help", "run"}).out ==
         call_talus(scratch.folder(), {"run", "--help"}).out);

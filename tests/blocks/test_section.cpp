@@ -160,7 +160,7 @@ TEST_CASE("names of blocks and of generators must not clash, nor blocks and bodi
   CHECK_THAT(same[0].message, Contains("the name of /blocks/0 already"));
 }
 
-TEST_CASE("generators stand in a list", "[blocks]") {
+TEST_CASE("blocks that are no list of generators are refused in words", "[blocks]") {
   const auto found =
       sample::mistakes(with(generator_scene(""), "\"blocks\": [", "\"blocks\": 3, \"title\": ["));
   const auto at_blocks =

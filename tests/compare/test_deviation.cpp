@@ -17,7 +17,8 @@ Series straight(std::vector<double> times, double offset, double slope) {
 
 }  // namespace
 
-TEST_CASE("deviations of curves at the same times", "[compare][deviation]") {
+TEST_CASE("the deviation of two curves is their largest, root mean square and last difference",
+          "[compare][deviation]") {
   const Series baseline = straight({0, 1, 2, 3}, 0, 1);
   Series run = baseline;
   run.values[0] = {0, 1.5, -1, 3.25};

@@ -80,7 +80,7 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
   }
 }
 
-TEST_CASE("what is right passes", "[conformance]") {
+TEST_CASE("check-plugin passes a right law, material and cover in each of their checks", "[conformance]") {
   const Scratch scratch;
   for (const auto& [library, checks] :
        {std::pair{"right", 22}, std::pair{"right_rock", 10}, std::pair{"right_fan", 7}}) {

@@ -38,7 +38,8 @@ Collision collide(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("Collision of section 4.1", "[figures]") {
+TEST_CASE("Collision of section 4.1: equal blocks exchange velocities in half a period of the contact spring",
+          "[figures]") {
   const Collision c = collide(shipped("collision", {{"/output/history", "1e-4"}, {"/time/end", "1.2"}}));
   INFO(fmt::format("v_B {:.6f}, momentum {:.2e}, contact {:.5f} s, overlap {:.6f} m, residual {:.2e}", c.v_b,
                    c.momentum_error, c.ended - c.began, c.overlap, c.residual));
@@ -83,7 +84,7 @@ TEST_CASE("Collision: the energy residual falls with the square of the time step
   CHECK(order < 2.4);
 }
 
-TEST_CASE("Collision of unequal masses", "[figures]") {
+TEST_CASE("Collision of unequal masses: both leave with the velocities of an elastic impact", "[figures]") {
   const Collision c = collide(shipped("collision_unequal", {{"/time/end", "1.2"}}));
   INFO(fmt::format("v_A {:.6f}, v_B {:.6f}, momentum {:.2e}", c.v_a, c.v_b, c.momentum_error));
   CHECK(c.v_a == Approx(0.25).epsilon(0.005));

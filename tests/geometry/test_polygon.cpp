@@ -38,7 +38,8 @@ TEST_CASE("moments of a rectangle about any point are those of the closed form",
   CHECK(about_origin.xy == Approx(8 * 9));
 }
 
-TEST_CASE("moments of a right triangle", "[geometry][polygon]") {
+TEST_CASE("area, first and second moments of a right triangle are those of the formulas",
+          "[geometry][polygon]") {
   const double b = 3, h = 2;
   const AreaMoments m = ring_moments(Ring{{0, 0}, {b, 0}, {0, h}}, {0, 0});
   CHECK(m.area == Approx(b * h / 2));
@@ -101,7 +102,7 @@ TEST_CASE("the polar moment is the same in every orientation", "[geometry][polyg
   }
 }
 
-TEST_CASE("the smallest width of a hull", "[geometry][polygon]") {
+TEST_CASE("the smallest width is that of the hull, however it is turned", "[geometry][polygon]") {
   for (const double angle : {0.0, 0.3, 1.2, 3.0}) {
     CHECK(smallest_width(rotated(rectangle, angle)) == Approx(2));
     // An equilateral triangle of side 2: its height.

@@ -55,7 +55,7 @@ TEST_CASE("an inline array decodes to its bytes at every block boundary", "[outp
   }
 }
 
-TEST_CASE("bodies of a frame read back", "[output][vtu]") {
+TEST_CASE("a frame's file decodes to the corners, fields and cells of its bodies", "[output][vtu]") {
   const Scratch scratch;
   FrameWriter writer(scratch.folder());
   writer.add(example_frame(0));
@@ -83,7 +83,7 @@ TEST_CASE("bodies of a frame read back", "[output][vtu]") {
   CHECK(decode::array<std::int32_t>(file, "body")[8] == 1);
 }
 
-TEST_CASE("contacts of a frame read back", "[output][vtu]") {
+TEST_CASE("a frame's file decodes to the places, forces and depths of its contacts", "[output][vtu]") {
   const std::string file = vtu_text(contact_grid(example_frame(0.5)), 0.5);
   CHECK(decode::array<double>(file, "Points") == std::vector<double>{500001, 0.5, 0});
   CHECK(decode::array<double>(file, "normal_force") == std::vector<double>{7, 8, 0});

@@ -31,7 +31,7 @@ TEST_CASE("history.csv reads back to the same bits, row by row", "[output][histo
   CHECK(series.values[0] == std::vector<double>{values[0], values[0]});
 }
 
-TEST_CASE("quantities of a motion", "[output][history]") {
+TEST_CASE("displacements, speeds, angles in degrees and stresses follow from a motion", "[output][history]") {
   Motion motion{};
   motion.position = {1, 2};
   motion.displacement = {3, -4};

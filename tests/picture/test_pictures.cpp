@@ -82,7 +82,8 @@ TEST_CASE("Marks stand over axes by powers of ten and leave out what these canno
   check_xml(marks_svg("nothing", "x", "y", {{0, 0, "", "", ""}}, {}));
 }
 
-TEST_CASE("Colours go from dark to light", "[picture]") {
+TEST_CASE("Colours go from dark to light, and what lies outside of the range has the colour of its end",
+          "[picture]") {
   CHECK(palette::shade(0) == "#440154");
   CHECK(palette::shade(1) == "#fde725");
   CHECK(palette::shade(-3) == palette::shade(0));

@@ -56,7 +56,8 @@ TEST_CASE("Two components of a kind in one library have two names", "[plugin]") 
   CHECK(!reason_to_refuse(fitting_library(components, 2)));
 }
 
-TEST_CASE("A component must be whole", "[plugin]") {
+TEST_CASE("A component that lacks a name, sentence, constructor or table is refused, and the lack is named",
+          "[plugin]") {
   const auto spoilt = [](auto spoil) {
     Component component = fitting_component();
     spoil(component);

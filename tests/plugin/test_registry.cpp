@@ -45,7 +45,7 @@ TEST_CASE("Components are found by kind and name, names come sorted", "[plugin]"
   CHECK(registry.find(ComponentKind::material, "zig") == nullptr);
 }
 
-TEST_CASE("Adding is all or nothing", "[plugin]") {
+TEST_CASE("Of a library with one name taken, no component enters the registry", "[plugin]") {
   const Component first = fitting_component("taken");
   const Component second[] = {fitting_component("free"), fitting_component("taken")};
   const Library one = fitting_library(&first, 1), other = fitting_library(second, 2);

@@ -11,7 +11,7 @@
 using namespace talus;
 using Catch::Matchers::Contains;
 
-TEST_CASE("Errors, front and order of a study", "[study]") {
+TEST_CASE("A study's errors are those against its finest run, and give its front and its order", "[study]") {
   const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
                                    run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)};
   const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);

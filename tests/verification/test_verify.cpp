@@ -164,7 +164,8 @@ TEST_CASE("Patterns choose groups, cases and both; others get the nearest name",
   CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
 }
 
-TEST_CASE("talus verify: exit codes, list, JSON", "[verification][apps]") {
+TEST_CASE("talus verify lists its cases, refuses unknown ones, and writes what it held as JSON",
+          "[verification][apps]") {
   const Scratch scratch;
   const Call list = call_talus(scratch.folder(), {"verify", "--list", "impact"});
   CHECK(list.code == 0);

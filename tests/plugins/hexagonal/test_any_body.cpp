@@ -107,7 +107,7 @@ Line arch(int corners, double inner, double outer) {
 
 }  // namespace
 
-TEST_CASE("covers of an arch and a disc, cut and whole", "[plugins][hexagonal]") {
+TEST_CASE("covers fill an arch and a disc, and count the parts that lines cut off", "[plugins][hexagonal]") {
   for (const double size : {3.0, 1.0, 0.31, 0.1}) {
     for (const double angle : {0.0, 12.0}) {
       const DrawnBody whole({arch(40, 4, 5)});

@@ -60,7 +60,8 @@ TEST_CASE("mass scaling gives a patch the inertia that it lacks", "[plugins][hex
   }
 }
 
-TEST_CASE("slivers can be left alone", "[plugins][hexagonal]") {
+TEST_CASE("slivers are left alone by choice, and steadied below the share that is asked for",
+          "[plugins][hexagonal]") {
   const DrawnBody body = overhanging(1e-4);
   CHECK(lay(body, {1, {0, 0}, 0, keep, 0.1}).steadied.empty());
   CHECK(lay(body, {1, {0, 0}, 0, merge, 0}).steadied.empty());
