@@ -9,6 +9,9 @@ talus_browser_packages=(chromium chromium-driver python3-selenium)
 # What checks scenes against their JSON Schema in the tests.
 talus_schema_packages=(python3-jsonschema)
 
+# What adds up the counters of a build of preset `coverage`.
+talus_coverage_packages=(gcovr)
+
 # install_missing_packages [PACKAGE...]: installs what is missing of these, or of talus_packages. Elsewhere than on Debian and its kin it prints what is needed.
 install_missing_packages() {
   if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
