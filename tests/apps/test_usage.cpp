@@ -73,3 +73,33 @@ TEST_CASE("plugins and describe read the descriptors", "[apps]") {
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("did you mean 'overlap_area'?"));
 }
+
+TEST_CASE("values of options that make no sense are refused with what would", "[apps]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  std::filesystem::create_directory(scratch / "folder");
+  const struct {
+    std::vector<std::string> words;
+    const char* said;
+  } mistaken[] = {
+      {{"advise", "scene.json"}, "--error 1% is missing"},
+      {{"advise", "scene.json", "--error", "little"}, "--error little: give a share above 0, 1% or 0.01"},
+      {{"advise", "scene.json", "--error", "-1%"}, "--error -1%: give a share above 0"},
+      {{"advise", "scene.json", "--error", "1%%"}, "--error 1%%: give a share above 0"},
+      {{"help", "run", "--man"}, "the manual page holds all commands: give --man alone"},
+      {{"run", "scene.json", "--wall-time", "-1"}, "--wall-time -1: give seconds, 0 or more"},
+      {{"run", "scene.json", "--wall-time", "nan"}, "give seconds, 0 or more"},
+      {{"run", "scene.json", "--set", "time/end=1"}, "--set time/end=1: write it as --set /pointer=value"},
+      {{"compare", "scene.json", "--vary", "/time"}, "--vary /time: write it as --vary /pointer=value,value"},
+      {{"blocks", "scene.json", "-o", "folder"}, "'folder' is a folder: name a file"},
+      {{"view", "scene.json", "-o", "folder"}, "'folder' is a folder: name a file"},
+      {{"view", "folder", "-o", "a.svg"}, "-o and --set are for scenes"}};
+  for (const auto& [words, said] : mistaken) {
+    const Call call = call_talus(scratch.folder(), words);
+    CAPTURE(words, call.err);
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains(said));
+    CHECK_FALSE(std::filesystem::exists(scratch / "a.svg"));
+    CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+  }
+}

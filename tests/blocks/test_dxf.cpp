@@ -84,6 +84,13 @@ TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   CHECK_THAT(refusal(drawing(arc)), Contains("arc"));
   CHECK_THAT(refusal(drawing(light + "230\n-1\n")), Contains("plane of its own"));
   CHECK_THAT(refusal(drawing("  0\nPOLYLINE\n  0\nLINE\n")), Contains("'LINE' stands where VERTEX"));
+  for (const char* flags : {"0.5", "1e9", "-70000"}) {
+    std::string flagged = old_polyline;
+    flagged.replace(flagged.find("70\n0"), 4, std::string("70\n") + flags);
+    CHECK_THAT(refusal(drawing(flagged)),
+               Contains("d.dxf:22: '" + std::string(flags) + "' stands where flags, a whole number, should"));
+  }
+  CHECK_THAT(refusal(drawing("  0\nLWPOLYLINE\n 20\n1\n")), Contains("before the first x (code 10)"));
 }
 
 TEST_CASE("a drawing cuts a domain, and its layers name surfaces", "[blocks]") {

@@ -1,3 +1,4 @@
+#include "checkpoint/archive.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "output/hash.hpp"
 #include "output/input_error.hpp"
@@ -82,6 +83,63 @@ TEST_CASE("A file that is no checkpoint, or one of another program, is refused i
   write_whole_file(file, "talus checkpoint 7\n");
   CHECK_THROWS_WITH(read_checkpoint(file), Contains("of another form"));
   CHECK_THROWS_AS(read_checkpoint(scratch.folder() / "missing.talus"), std::system_error);
+}
+
+TEST_CASE(
+    "A whole checkpoint of another version, or for instruction sets that nobody knows, is refused by that",
+    "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus";
+  write_checkpoint(file, some_checkpoint());
+  const std::string whole = read_whole_file(file);
+  // Whole in itself: only the words differ, of the same length, and the hash is theirs.
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string text = whole.substr(0, whole.size() - 32);
+    text.replace(text.find(from), from.size(), to);
+    text += hash_of_bytes(text);
+    try {
+      read_checkpoint_text(text, "c.talus");
+    } catch (const InputError& problem) {
+      return std::string(problem.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal("avx2", "avx2").empty());
+  CHECK_THAT(refusal("\"written_by\":\"talus 0", "\"written_by\":\"talus 9"),
+             Contains("'c.talus' was written by talus 9") && Contains("this is talus " TALUS_VERSION) &&
+                 Contains("use that version, or run the scene anew"));
+  CHECK(refusal("\"avx2\"", "\"abcd\"") == "'c.talus' names an unknown instruction set");
+  CHECK_THAT(refusal("\"threads\":2", "\"treads\": 2"),
+             Contains("'c.talus' is damaged") && Contains("threads"));
+  CHECK_THAT(refusal("\"threads\":2", "\"threads\":{"), Contains("is damaged") && Contains("parse error"));
+}
+
+TEST_CASE("A checkpoint that lost bytes says how many it should have", "[checkpoint]") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / "checkpoint.talus";
+  write_checkpoint(file, some_checkpoint());
+  const std::string whole = read_whole_file(file);
+  CHECK_THROWS_WITH(read_checkpoint_text(whole.substr(0, whole.size() - 7), "c.talus"),
+                    Contains("bytes should follow its second line, there are") &&
+                        Contains("take an older copy, or run the scene anew"));
+}
+
+TEST_CASE("A state with arrays of other lengths than the scene gives, or too short a one, is not taken",
+          "[checkpoint]") {
+  Archive kept;
+  std::vector<double> three{1, 2, 3};
+  kept(three);
+  const auto take = [&](std::string_view bytes, std::size_t due) {
+    Archive back(bytes);
+    std::vector<double> values(due);
+    back.of_known_size(values);
+    return values;
+  };
+  CHECK(take(kept.bytes(), 3) == three);
+  const char* words = "the state that was kept does not belong to this scene";
+  CHECK_THROWS_WITH(take(kept.bytes(), 2), words);
+  CHECK_THROWS_WITH(take(std::string_view(kept.bytes()).substr(0, 20), 3), words);
+  CHECK_THROWS_WITH(take(std::string(8, '\xff'), 3), words);  // a length that no memory holds
 }
 
 TEST_CASE("A count in a checkpoint that is no count is refused by its name", "[checkpoint]") {

@@ -1,5 +1,6 @@
 #include "decode.hpp"
 #include "output/frame.hpp"
+#include "output/input_error.hpp"
 #include "output/triangulate.hpp"
 #include "output/whole_file.hpp"
 #include "scratch.hpp"
@@ -137,4 +138,49 @@ TEST_CASE("triangles fill a polygon with holes", "[output][triangulate]") {
   CHECK(area({hook}, true) == Approx(10));
   const std::vector<Vec2> subdivided{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   CHECK(area({subdivided}, false) == Approx(4));
+}
+
+TEST_CASE("a frame that is damaged is refused by what is wrong with it", "[output][vtu]") {
+  const Scratch scratch;
+  FrameWriter(scratch.folder()).add(example_frame(0));
+  const std::string whole = read_whole_file(scratch / "frames/frame_000000.vtu");
+  const Grid good = read_vtu_text(whole);
+  const auto refusal = [](const std::string& text) {
+    try {
+      read_vtu_text(text);
+    } catch (const InputError& problem) {
+      return std::string(problem.what());
+    }
+    return std::string();
+  };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  CHECK(refusal("") == "not a frame that talus wrote: a part is missing");
+  CHECK_THAT(refusal(changed("<Points>", "<Dots>")), Contains("a part is missing"));
+  CHECK_THAT(refusal(changed("</Cells>", "")), Contains("a part has no end"));
+
+  // The letters of the first array; the header of blocks stands in the first 32.
+  const std::size_t letters = whole.find('>', whole.find("<DataArray ", whole.find("<Points>"))) + 1;
+  const auto with = [&](std::size_t at, std::size_t length, const std::string& to) {
+    std::string text = whole;
+    return text.replace(letters + at, length, to);
+  };
+  CHECK_THAT(refusal(with(3, 1, "*")), Contains("a letter is out of place"));
+  CHECK_THAT(refusal(with(40, 1, "")), Contains("its text comes in fours"));
+  CHECK_THAT(refusal(with(0, 8, "/////w==")), Contains("more blocks than bytes"));
+  CHECK_THAT(refusal(with(0, whole.find('<', letters) - letters, "AQAA")), Contains("an array ends early"));
+
+  Grid grid = good;
+  grid.offsets[1] = grid.offsets[0] - 1;
+  CHECK_THAT(refusal(vtu_text(grid, 0)), Contains("a cell has no corners"));
+  grid = good;
+  grid.offsets.back() = 1000;
+  CHECK_THAT(refusal(vtu_text(grid, 0)), Contains("a cell has no corners"));
+  for (const std::int64_t nowhere : {std::int64_t{-1}, std::int64_t{12}}) {
+    grid = good;
+    grid.connectivity[0] = nowhere;  // of 12 points
+    CHECK_THAT(refusal(vtu_text(grid, 0)), Contains("a corner is no point"));
+  }
 }

@@ -43,5 +43,19 @@ TEST_CASE("A Latin hypercube meets each stratum once", "[study]") {
   CHECK(words == 4);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 7).points[3].values[0] == plan.points[3].values[0]);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 8).points[3].values[0] != plan.points[3].values[0]);
-  CHECK_THROWS_AS(latin_hypercube({{"/even", {"3:2"}}}, count, 7), InputError);
+}
+
+TEST_CASE(
+    "Samples without a number or of a range without an extent are refused, and what merely looks like one is "
+    "a "
+    "value",
+    "[study]") {
+  for (const char* range : {"3:2", "2:2", "1:inf", "nan:2"})
+    CHECK_THROWS_WITH(latin_hypercube({{"/a", {range}}}, 4, 7),
+                      "--vary /a=" + std::string(range) + ": a range is low:high, two numbers");
+  for (const std::size_t count : {0, 10001})
+    CHECK_THROWS_WITH(latin_hypercube({{"/a", {"1:2"}}}, count, 7),
+                      "--sample " + std::to_string(count) + ": allowed are 1 to 10000");
+  CHECK(latin_hypercube({{"/a", {"c:d"}}}, 2, 7).points[1].values[0] == "c:d");
+  CHECK(grid({{"/a", {"x:", "1:2"}}}).points.size() == 2);  // of two values none is a range
 }
