@@ -163,6 +163,55 @@ TEST_CASE("validate says what a scene is", "[apps][validate]") {
                            Contains("block.speed [m/s]") && Contains("it names none by path"));
 }
 
+TEST_CASE("validate tells stiffness that is out of proportion, covers of many elements, settling and stages",
+          "[apps][validate]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto told = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> words{"validate", "small.json"};
+    for (const std::string& change : changes) words.insert(words.end(), {"--set", change});
+    const Call call = call_talus(scratch.folder(), words);
+    INFO(call.err);
+    REQUIRE(call.code == 0);
+    return call.out;
+  };
+  const std::string rock =
+      R"(/materials/rock={"density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.2})";
+  // E/h is 1e9 Pa over the width of a metre.
+  const std::string soft = told({rock, "/cover/model=block", "/interfaces/0/normal_stiffness=1e6",
+                                 "/settle={\"duration\": 0.1, \"damping\": \"adaptive\"}"});
+  CHECK_THAT(soft,
+             Contains("1e+06 Pa/m of /interfaces/0 is 0.001 E/h of 'block'") &&
+                 Contains("soft, bodies sink into each other rather than deform; 0.1 E/h is 1e+08 Pa/m") &&
+                 !Contains("which costs steps"));
+  CHECK_THAT(soft, Contains("settle") && Contains("0.1 s with adaptive damping") && Contains("to settle") &&
+                       Contains("not settled yet"));
+  const std::string stiff = told({rock, "/cover/model=block", "/interfaces/0/normal_stiffness=1e12"});
+  CHECK_THAT(stiff,
+             Contains("stiff, which costs steps; 10 E/h is 1e+10 Pa/m") && !Contains("soft, bodies sink"));
+  const std::string covered =
+      told({rock, R"(/cover={"model": "hexagonal", "size": 0.4})",
+            R"(/stages=[{"name": "dry", "from": 0.1, "set": {"/gravity": [0, -9]}}])"});
+  CHECK_THAT(covered, Contains(" patches, ") && Contains(" elements") && Contains("'dry' from 0.1 s"));
+}
+
+TEST_CASE("talus report writes the page of a folder of results, and names a folder that holds none",
+          "[apps][report]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--quiet", "--out", "results"}).code == 0);
+  const std::string page = read_whole_file(scratch / "results/report.html");
+  std::filesystem::remove(scratch / "results/report.html");
+  const Call call = call_talus(scratch.folder(), {"report", "results"});
+  CHECK(call.code == 0);
+  CHECK(call.out == "results/report.html\n");
+  CHECK(read_whole_file(scratch / "results/report.html") == page);
+  const Call none = call_talus(scratch.folder(), {"report", "."});
+  CHECK(none.code == 2);
+  CHECK_FALSE(none.err.empty());
+  CHECK_FALSE(std::filesystem::exists(scratch / "report.html"));
+}
+
 TEST_CASE("libraries that a scene names load only when allowed", "[apps][validate]") {
   const Scratch scratch;
   std::string text = small_scene();

@@ -121,6 +121,33 @@ TEST_CASE("The picture of a scene shows what it is made of", "[picture]") {
   }
 }
 
+TEST_CASE("The picture of a scene marks what holds, drives, moves and drains its bodies", "[picture]") {
+  WorkingScene text;
+  text.bodies = box("base", -4, -2, 8, 0, R"("fixed": true)") + "," +
+                box("held", -3, 0, -2, 1, R"("fix": ["x"])") + "," +
+                box("driven", 0, 0, 1, 1, R"("drive": {"y": -0.5})") + "," +
+                // Its middle is in the notch, where its name would not be within it.
+                R"({"name": "notched", "material": "rock", "cover": {"model": "hexagonal", "size": 0.5},
+                    "polygon": [[3, 0], [6, 0], [6, 3], [5.9, 3], [5.9, 0.1], [3, 0.1]],
+                    "surfaces": {"right": [1], "under": [0]}})";
+  text.rest =
+      R"("prescribed": [{"body": "notched", "surface": "under", "stiffness": 1e10, "velocity": [0, 1]}],
+                 "absorbing": [{"body": "notched", "surface": "right"}],)";
+  const std::string svg = scene_svg(Simulation(text.read(), {}));
+  check_xml(svg);
+  for (const char* words : {"held along the bar", ">driven<", "prescribed motion", ">absorbing<",
+                            "surface right", "surface under", ">notched<"}) {
+    CHECK_THAT(svg, Contains(words));
+  }
+  // Elements of the covered body, each a faint outline without a fill; the others have one element each.
+  const auto count = [&](const std::string& words) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(words); at != std::string::npos; at = svg.find(words, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count("fill=\"none\"") >= 10);
+}
+
 TEST_CASE("Figures of a run are drawn from its files", "[picture]") {
   const Scratch scratch;
   CHECK_THROWS_WITH(write_figures(scratch.folder()), Contains("no folder of results"));

@@ -1,0 +1,88 @@
+#include "output/scratch.hpp"
+#include "output/whole_file.hpp"
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <sstream>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Call reduce(const Scratch& scratch, const std::vector<std::string>& more) {
+  std::vector<std::string> words{
+      "safety", TALUS_SCENES "/stick_31deg.json", "--set", "/time/end=0.5", "--out", "results"};
+  words.insert(words.end(), more.begin(), more.end());
+  return call_talus(scratch.folder(), words);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "talus safety tells the factor between what stands and what collapses, and writes each factor it tried",
+    "[apps][safety]") {
+  const Scratch scratch;
+  const Call call = reduce(scratch, {"--tolerance", "0.1"});
+  INFO(call.out << call.err);
+  REQUIRE(call.code == 0);
+  double factor = 0, stands = 0, collapses = 0;
+  REQUIRE(std::sscanf(call.out.substr(call.out.find("factor of safety")).c_str(),
+                      "factor of safety %lf: stands at %lf, collapses at %lf", &factor, &stands,
+                      &collapses) == 3);
+  CHECK(stands < factor);
+  CHECK(factor < collapses);
+  CHECK(collapses - stands <= 0.1 * stands * (1 + 1e-3));  // printed with four digits
+  const double degree = std::numbers::pi / 180, due = std::tan(31 * degree) / std::tan(30 * degree);
+  CHECK(stands <= due);
+  CHECK(due <= collapses);
+  CHECK_THAT(call.out, Contains("moving on at ") && Contains("results in results"));
+
+  std::istringstream csv(read_whole_file(scratch / "results/safety.csv"));
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],moving bodies");
+  double last_factor = 0;
+  int last_collapsed = 0, rows = 0;
+  for (; std::getline(csv, line); ++rows) {
+    double tried = 0;
+    int collapsed = 0;
+    REQUIRE(std::sscanf(line.c_str(), "%lf,%d,", &tried, &collapsed) == 2);
+    CHECK(tried > last_factor);  // in their order, not in that of the bisection
+    CHECK(collapsed >= last_collapsed);
+    last_factor = tried, last_collapsed = collapsed;
+  }
+  CHECK(rows >= 3);
+  CHECK_THAT(read_whole_file(scratch / "results/safety.svg"),
+             Contains("<svg") && Contains("factor of safety 1.0"));
+}
+
+TEST_CASE("talus safety says what collapses however strong, and what stands however weak", "[apps][safety]") {
+  const Scratch scratch;
+  const Call fallen = reduce(scratch, {"--set", "/interfaces/0/friction_angle=0.1"});
+  CHECK(fallen.code == 0);
+  CHECK_THAT(fallen.out, Contains("it collapses even with ") && Contains("look whether it can stand at all"));
+  const Call steady = reduce(scratch, {"--overwrite", "--set", "/gravity=[0, 0]"});
+  CHECK(steady.code == 0);
+  CHECK_THAT(steady.out, Contains("it stands even with its strength divided by "));
+}
+
+TEST_CASE("talus safety overwrites nothing unasked, and refuses tolerances that tell nothing",
+          "[apps][safety]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "results");
+  scratch.write("results/safety.csv", "mine");
+  const Call twice = reduce(scratch, {});
+  CHECK(twice.code != 0);
+  CHECK_THAT(twice.err, Contains("--overwrite"));
+  CHECK(read_whole_file(scratch / "results/safety.csv") == "mine");
+  for (const char* tolerance : {"0", "1", "-0.1", "nan"}) {
+    const Call call = reduce(scratch, {std::string("--tolerance=") + tolerance});
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("allowed are 1e-6 to less than 1"));
+  }
+}
