@@ -140,7 +140,8 @@ std::string settings_words(const Json& record, const std::string& but) {
   std::string words;
   for (const Json& change : record.at("settings").at("set")) {
     const std::string pointer = change.at("pointer");
-    if (pointer != but) words += " --set " + shell_word(pointer + "=" + change.at("value").get<std::string>());
+    if (pointer != but)
+      words += " --set " + shell_word(pointer + "=" + change.at("value").get<std::string>());
   }
   return words;
 }
@@ -199,7 +200,8 @@ std::string report_page(const fs::path& folder) {
   try {
     data = page_json(folder);
   } catch (const Json::exception& problem) {
-    throw InputError(fmt::format("'{}' does not hold what a run writes: {}", folder.string(), problem.what()));
+    throw InputError(
+        fmt::format("'{}' does not hold what a run writes: {}", folder.string(), problem.what()));
   }
   std::string title = data["runs"][0]["record"]["scene"].value("title", "");
   if (title.empty()) title = data["runs"][0]["record"]["scene"].value("file", "talus");

@@ -5,8 +5,8 @@
 #include "output/scratch.hpp"
 #include "output/whole_file.hpp"
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 using namespace talus;
 using Catch::Matchers::Contains;
