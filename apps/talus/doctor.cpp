@@ -48,9 +48,9 @@ std::string tell_end(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "run.json";
   try {
     const auto record = nlohmann::json::parse(read_whole_file(file));
-    const std::string end = record.at("end"), steps = record.at("steps").dump();
+    std::string end = record.at("end");
     fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), end,
-               record.at("t [s]").get<double>(), steps);
+               record.at("t [s]").get<double>(), record.at("steps").dump());
     if (end == "stopped") fmt::print("{}\n", record.at("trouble").get<std::string>());
     for (const auto& warning : record.at("warnings")) fmt::print("warned: {}\n", warning.get<std::string>());
     return end;
