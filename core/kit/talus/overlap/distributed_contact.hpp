@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/contact_model.hpp>
+#include <talus/overlap/carried_history.hpp>
 #include <talus/overlap/cell_loads.hpp>
 #include <talus/overlap/cells.hpp>
 #include <talus/overlap/friction.hpp>
@@ -68,7 +69,7 @@ class DistributedContact {
     const std::uint32_t groups = finder_.group();
     report = {};
     report.contact_count = groups;
-    if constexpr (Law::frictional) carry_history(batch, pair, report);
+    if constexpr (Law::frictional) carried_.carry(finder_, batch, pair, report);
     if (overlaps == 0) return;
 
     const LoadSink sink{loads.fx, loads.fy};
@@ -428,74 +429,6 @@ class DistributedContact {
     return area > 0 ? (1 / area) * moment : cells_[0].foot;
   }
 
-  /// Finds each old contact again among the new ones by place; where an overlap split, its spring force is
-  /// shared by length; where overlaps merged, V adds up; where one ended, its stored energy is lost.
-  void carry_history(const ContactBatch& batch, const BodyPair& pair, PairReport& report) {
-    carried_.assign(report.contact_count, FrictionHistory{});
-    name_strips(report.contact_count);
-    spans_.clear();
-    if (pair.contact_count == 0) return;
-    for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(finder_.span(g, batch.dt));
-    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
-      const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
-      if (carry_to_same_strips(old)) continue;
-      double total = 0;
-      const auto weight = [&](const GroupSpan& span) {
-        const bool same = length(span.centre - Point{old.x, old.y}) <= span.reach + old.contact_length / 2;
-        return same ? span.size : 0.0;
-      };
-      for (const GroupSpan& span : spans_) total += weight(span);
-      if (!(total > 0)) {
-        report.slip_loss += old.stored;
-        continue;
-      }
-      for (std::uint32_t g = 0; g < report.contact_count; ++g) {
-        const double share = weight(spans_[g]) / total;
-        if (share == 0) continue;
-        FrictionHistory& now = carried_[g];
-        now.elastic += share * old.elastic;
-        now.applied += share * old.applied;
-        now.stored += share * old.stored;
-        now.contact_length += share * old.contact_length;
-        now.slip = old.slip;
-      }
-    }
-  }
-
-  void name_strips(std::uint32_t groups) {
-    for (const Overlap& overlap : finder_.overlaps()) {
-      if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
-      carried_[overlap.group].strip_a = 1.0 + overlap.piece[0].first_corner();
-      carried_[overlap.group].strip_b = 1.0 + overlap.piece[1].first_corner();
-    }
-  }
-
-  /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
-  /// neighbours: the two strips tell which is which as long as they touch.
-  bool carry_to_same_strips(const FrictionHistory& old) {
-    if (old.strip_a == 0) return false;
-    for (FrictionHistory& now : carried_) {
-      if (now.strip_a != old.strip_a || now.strip_b != old.strip_b) continue;
-      now.elastic += old.elastic;
-      now.applied += old.applied;
-      now.stored += old.stored;
-      now.contact_length += old.contact_length;
-      now.slip = old.slip;
-      return true;
-    }
-    return false;
-  }
-
-  static FrictionHistory read_history(const double* from) {
-    return {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7], from[8]};
-  }
-
-  static void write_history(const FrictionHistory& history, double* to) {
-    to[0] = history.elastic, to[1] = history.applied, to[2] = history.stored, to[3] = history.contact_length;
-    to[4] = history.x, to[5] = history.y, to[6] = history.slip;
-    to[7] = history.strip_a, to[8] = history.strip_b;
-  }
-
   ContactReport contact_report(Point tangential, double slip) const {
     double load = 0;
     Point moment{0, 0}, normal{0, 0};
@@ -514,8 +447,7 @@ class DistributedContact {
   CellDivider divider_;
   std::vector<Cell> cells_;
   std::vector<Segment> segments_;
-  std::vector<FrictionHistory> carried_;
-  std::vector<GroupSpan> spans_;
+  CarriedHistory carried_;
   Balance balance_;
   bool among_strips_ = false;  ///< whether a body of the pair has many elements
   LoadedSide last_resort_;     ///< among strips: where what is left over goes

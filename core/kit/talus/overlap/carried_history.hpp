@@ -1,0 +1,90 @@
+#pragma once
+
+#include <talus/overlap/friction.hpp>
+#include <talus/overlap/grouping.hpp>
+
+#include <vector>
+
+namespace talus::overlap {
+
+inline FrictionHistory read_history(const double* from) {
+  return {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7], from[8]};
+}
+
+inline void write_history(const FrictionHistory& history, double* to) {
+  to[0] = history.elastic, to[1] = history.applied, to[2] = history.stored, to[3] = history.contact_length;
+  to[4] = history.x, to[5] = history.y, to[6] = history.slip;
+  to[7] = history.strip_a, to[8] = history.strip_b;
+}
+
+/// What the contacts of a pair remember of the step before. Overlaps come, part and go, so which of then is
+/// which of now is found by place, or by the strips that touch. One object serves one thread.
+class CarriedHistory {
+ public:
+  /// Finds each old contact again among the new ones by place; where an overlap split, its spring force is
+  /// shared by length; where overlaps merged, V adds up; where one ended, its stored energy is lost.
+  void carry(const OverlapGroups& overlaps, const ContactBatch& batch, const BodyPair& pair,
+             PairReport& report) {
+    carried_.assign(report.contact_count, FrictionHistory{});
+    name_strips(overlaps, report.contact_count);
+    spans_.clear();
+    if (pair.contact_count == 0) return;
+    for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(overlaps.span(g, batch.dt));
+    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
+      const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
+      if (carry_to_same_strips(old)) continue;
+      double total = 0;
+      const auto weight = [&](const GroupSpan& span) {
+        const bool same = length(span.centre - Point{old.x, old.y}) <= span.reach + old.contact_length / 2;
+        return same ? span.size : 0.0;
+      };
+      for (const GroupSpan& span : spans_) total += weight(span);
+      if (!(total > 0)) {
+        report.slip_loss += old.stored;
+        continue;
+      }
+      for (std::uint32_t g = 0; g < report.contact_count; ++g) {
+        const double share = weight(spans_[g]) / total;
+        if (share == 0) continue;
+        FrictionHistory& now = carried_[g];
+        now.elastic += share * old.elastic;
+        now.applied += share * old.applied;
+        now.stored += share * old.stored;
+        now.contact_length += share * old.contact_length;
+        now.slip = old.slip;
+      }
+    }
+  }
+
+  FrictionHistory& operator[](std::uint32_t group) { return carried_[group]; }
+
+ private:
+  void name_strips(const OverlapGroups& overlaps, std::uint32_t groups) {
+    for (const Overlap& overlap : overlaps.overlaps()) {
+      if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
+      carried_[overlap.group].strip_a = 1.0 + overlap.piece[0].first_corner();
+      carried_[overlap.group].strip_b = 1.0 + overlap.piece[1].first_corner();
+    }
+  }
+
+  /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
+  /// neighbours: the two strips tell which is which as long as they touch.
+  bool carry_to_same_strips(const FrictionHistory& old) {
+    if (old.strip_a == 0) return false;
+    for (FrictionHistory& now : carried_) {
+      if (now.strip_a != old.strip_a || now.strip_b != old.strip_b) continue;
+      now.elastic += old.elastic;
+      now.applied += old.applied;
+      now.stored += old.stored;
+      now.contact_length += old.contact_length;
+      now.slip = old.slip;
+      return true;
+    }
+    return false;
+  }
+
+  std::vector<FrictionHistory> carried_;
+  std::vector<GroupSpan> spans_;
+};
+
+}  // namespace talus::overlap
