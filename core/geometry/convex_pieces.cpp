@@ -186,6 +186,28 @@ class Divider {
   std::size_t cuts_ = 0, most_cuts_ = 0;
 };
 
+/// A corner whose side runs past other corners of its piece: of sides as short as rounding the direction is
+/// rounding too, and what lies behind them is lost.
+std::optional<Vec2> misled_side(const ConvexPiece& piece) {
+  double far = 0;
+  Vec2 low = piece[0].at, high = low;
+  for (const PieceCorner& corner : piece) {
+    far = std::max({far, std::abs(corner.at.x), std::abs(corner.at.y)});
+    low = {std::min(low.x, corner.at.x), std::min(low.y, corner.at.y)};
+    high = {std::max(high.x, corner.at.x), std::max(high.y, corner.at.y)};
+  }
+  const double allowed = 1e-8 * std::max(high.x - low.x, high.y - low.y);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const Vec2 from = piece[i].at, to = piece[next(piece, i)].at;
+    if (size_of(minus(to, from)) > 1e-8 * far) continue;
+    const Vec2 along = direction(from, to);
+    for (const PieceCorner& corner : piece) {
+      if (cross(along, minus(corner.at, from)) < -allowed) return from;
+    }
+  }
+  return std::nullopt;
+}
+
 ConvexPiece ring_of(const Loop& loop) {
   ConvexPiece ring;
   for (std::size_t i = 0; i < loop.vertices.size(); ++i)
@@ -208,6 +230,9 @@ std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> 
   std::vector<ConvexPiece> pieces = Divider().divide(std::move(region));
   // Where features are as small as rounding, cuts may leave a part out or take it twice.
   if (!(std::abs(area_of(pieces) - area) <= 1e-9 * area)) throw Indivisible(outer.vertices[0]);
+  for (const ConvexPiece& piece : pieces) {
+    if (const std::optional<Vec2> at = misled_side(piece)) throw Indivisible(*at);
+  }
   return pieces;
 }
 

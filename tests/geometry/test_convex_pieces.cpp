@@ -248,3 +248,22 @@ TEST_CASE("ragged bodies of any outline are cut", "[geometry][pieces]") {
     check_rules(outer, body % 2 == 0 ? std::vector<Ring>{} : std::vector<Ring>{hole});
   }
 }
+
+TEST_CASE("a body with a needle as thin as rounding is refused, not cut into pieces that lose area",
+          "[geometry][pieces]") {
+  const Loop body{{{-1.4374897480156505, -10.0625},
+                   {-1.4376118183137123, -10.0626220703125},
+                   {-1.4375507831574623, -10.06256103515625},
+                   {-1.4374897480012123, -10.0625},
+                   {-1.4375507831573486, -10.06256103515625},
+                   {-1.4374897480010986, -10.0625},
+                   {-1.3749897480010986, -10},
+                   {9.947239875793457, -5.511456251144409},
+                   {9.947342872619629, -5.5113303661346436},
+                   {59.75, 61.75}},
+                  std::vector<std::uint32_t>(10, 0)};
+  CHECK_THROWS_WITH(convex_pieces(body, {}), Catch::Contains("cannot be cut into convex pieces near (-1.43"));
+  // Sides as short are no harm where the direction of rounding leads nowhere.
+  const Loop chamfer{{{0, 0}, {60, 0}, {60, 40}, {1e-8, 40}, {0, 40 - 1e-8}}, std::vector<std::uint32_t>(5, 0)};
+  CHECK(convex_pieces(chamfer, {}).size() == 1);
+}
