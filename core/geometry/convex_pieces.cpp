@@ -186,9 +186,9 @@ class Divider {
   std::size_t cuts_ = 0, most_cuts_ = 0;
 };
 
-/// A corner whose side runs past other corners of its piece: of sides as short as rounding the direction is
-/// rounding too, and what lies behind them is lost.
-std::optional<Vec2> misled_side(const ConvexPiece& piece) {
+/// A corner that rounding made of a piece that is not convex, or whose side is so short that its direction is
+/// rounding and runs past other corners: what lies behind such a side is lost to contact.
+std::optional<Vec2> misled_corner(const ConvexPiece& piece) {
   double far = 0;
   Vec2 low = piece[0].at, high = low;
   for (const PieceCorner& corner : piece) {
@@ -196,14 +196,21 @@ std::optional<Vec2> misled_side(const ConvexPiece& piece) {
     low = {std::min(low.x, corner.at.x), std::min(low.y, corner.at.y)};
     high = {std::max(high.x, corner.at.x), std::max(high.y, corner.at.y)};
   }
-  const double allowed = 1e-8 * std::max(high.x - low.x, high.y - low.y);
+  const double extent = std::max(high.x - low.x, high.y - low.y);
+  const double allowed = 1e-8 * extent + 2e-13 * far;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const Vec2 from = piece[i].at, to = piece[next(piece, i)].at;
-    if (size_of(minus(to, from)) > 1e-8 * far) continue;
+    if (cross(minus(from, piece[0].at), minus(to, piece[0].at)) < -0.1 * allowed * extent) return from;
+    if (size_of(minus(to, from)) > 1e-6 * far) continue;
+    // Of a ring that is convex else, corners are the further inside the further on, up to the opposite one.
     const Vec2 along = direction(from, to);
-    for (const PieceCorner& corner : piece) {
-      if (cross(along, minus(corner.at, from)) < -allowed) return from;
-    }
+    const auto inside_by = [&](std::size_t k) { return cross(along, minus(piece[k].at, from)); };
+    std::size_t ahead = next(piece, i), behind = i;
+    do ahead = next(piece, ahead);
+    while (ahead != i && std::abs(inside_by(ahead)) <= allowed);
+    do behind = previous(piece, behind);
+    while (behind != i && std::abs(inside_by(behind)) <= allowed);
+    if (inside_by(ahead) < -allowed || inside_by(behind) < -allowed) return from;
   }
   return std::nullopt;
 }
@@ -231,7 +238,7 @@ std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> 
   // Where features are as small as rounding, cuts may leave a part out or take it twice.
   if (!(std::abs(area_of(pieces) - area) <= 1e-9 * area)) throw Indivisible(outer.vertices[0]);
   for (const ConvexPiece& piece : pieces) {
-    if (const std::optional<Vec2> at = misled_side(piece)) throw Indivisible(*at);
+    if (const std::optional<Vec2> at = misled_corner(piece)) throw Indivisible(*at);
   }
   return pieces;
 }

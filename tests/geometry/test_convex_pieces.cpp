@@ -263,7 +263,21 @@ TEST_CASE("a body with a needle as thin as rounding is refused, not cut into pie
                    {59.75, 61.75}},
                   std::vector<std::uint32_t>(10, 0)};
   CHECK_THROWS_WITH(convex_pieces(body, {}), Catch::Contains("cannot be cut into convex pieces near (-1.43"));
+  // A slit 8e-13 m wide: one of the pieces went round its tip and counted as convex.
+  const Loop slit{{{14.19824218750081, 18.135498046875},
+                   {14.22656250000081, 18.163818359375},
+                   {14.19580078125, 18.136962890625},
+                   {14.2265625, 18.163818359375},
+                   {14.1923828125, 18.192138671875},
+                   {14.220703125, 18.220458984375},
+                   {14.20361328125, 18.2216796875},
+                   {14.25, 18.25},
+                   {-120.25, 47},
+                   {7.75, -2}},
+                  std::vector<std::uint32_t>(10, 0)};
+  CHECK_THROWS_WITH(convex_pieces(slit, {}), Catch::Contains("cannot be cut into convex pieces near (14.19"));
   // Sides as short are no harm where the direction of rounding leads nowhere.
-  const Loop chamfer{{{0, 0}, {60, 0}, {60, 40}, {1e-8, 40}, {0, 40 - 1e-8}}, std::vector<std::uint32_t>(5, 0)};
+  const Loop chamfer{{{0, 0}, {60, 0}, {60, 40}, {1e-8, 40}, {0, 40 - 1e-8}},
+                     std::vector<std::uint32_t>(5, 0)};
   CHECK(convex_pieces(chamfer, {}).size() == 1);
 }
