@@ -2,6 +2,8 @@
 
 #include <talus/simd/pack.hpp>
 
+#include <type_traits>
+
 namespace talus::kernels::TALUS_KERNEL_LEVEL {
 namespace {
 
@@ -12,6 +14,8 @@ constexpr std::uint32_t packs = lanes / simd::lanes, width = simd::lanes;
 
 /// How a row is read and written: by full packs, or the first lanes of one.
 struct Whole {
+  static constexpr std::uint32_t count = width;
+
   Pack load(const double* from) const { return simd::load(from); }
   void store(Pack p, double* to) const { simd::store(p, to); }
 };
@@ -21,6 +25,16 @@ struct First {
   Pack load(const double* from) const { return simd::load_first(from, count); }
   void store(Pack p, double* to) const { simd::store_first(p, to, count); }
 };
+
+/// Calls one of two ways through a loop.
+template <class Ways>
+void with(bool yes, const Ways& ways) {
+  if (yes) {
+    ways(std::true_type());
+  } else {
+    ways(std::false_type());
+  }
+}
 
 struct Sum {
   Pack part[packs];
@@ -52,24 +66,27 @@ void in_lanes(std::uint32_t count, const Add& add) {
 }
 
 void move(std::uint32_t count, double dt, double* __restrict d, const double* __restrict v,
-          double* __restrict x, double* __restrict y) {
+          const LocalVectors& at) {
   std::uint32_t i = 0;
+  double* __restrict x = at.x, * __restrict y = at.y;
+  if (!at.apart()) {
+    for (; i < 2 * count; ++i) x[i] = d[i] += dt * v[i];
+    return;
+  }
   for (; i + width <= count; i += width) {
     Pack both[2], apart[2];
     for (std::uint32_t k = 0; k < 2; ++k) {
-      const std::uint32_t at = 2 * i + k * width;
-      both[k] = simd::load(d + at) + dt * simd::load(v + at);
-      simd::store(both[k], d + at);
+      const std::uint32_t j = 2 * i + k * width;
+      both[k] = simd::load(d + j) + dt * simd::load(v + j);
+      simd::store(both[k], d + j);
     }
     simd::separate(both, apart[0], apart[1]);
     simd::store(apart[0], x + i);
     simd::store(apart[1], y + i);
   }
   for (; i < count; ++i) {
-    d[2 * i] += dt * v[2 * i];
-    d[2 * i + 1] += dt * v[2 * i + 1];
-    x[i] = d[2 * i];
-    y[i] = d[2 * i + 1];
+    x[i] = d[2 * i] += dt * v[2 * i];
+    y[i] = d[2 * i + 1] += dt * v[2 * i + 1];
   }
 }
 
@@ -128,44 +145,86 @@ void lattice_force(std::uint32_t cells, const double gradient[4], double area, c
   some(c, First{cells - c}, First{cells - c + 1});
 }
 
-void triangle_gradient(std::uint32_t count, const Triangles& t, const double* __restrict x,
-                       const double* __restrict y, double* const f[4]) {
-  const std::uint32_t* __restrict i0 = t.corner[0], * __restrict i1 = t.corner[1], * __restrict i2 = t.corner[2];
-  const double* __restrict g1x = t.gradient[0], * __restrict g1y = t.gradient[1], * __restrict g2x = t.gradient[2], * __restrict g2y = t.gradient[3];
-  double* __restrict fxx = f[0], * __restrict fxy = f[1], * __restrict fyx = f[2], * __restrict fyy = f[3];
-#pragma GCC ivdep
-  for (std::uint32_t e = 0; e < count; ++e) {
-    const double x0 = x[i0[e]], y0 = y[i0[e]];
-    const double x1 = x[i1[e]] - x0, y1 = y[i1[e]] - y0, x2 = x[i2[e]] - x0, y2 = y[i2[e]] - y0;
-    fxx[e] = 1 + (x1 * g1x[e] + x2 * g2x[e]);
-    fxy[e] = x1 * g1y[e] + x2 * g2y[e];
-    fyx[e] = y1 * g1x[e] + y2 * g2x[e];
-    fyy[e] = 1 + (y1 * g1y[e] + y2 * g2y[e]);
-  }
+/// Calls some(e, row) for packs of triangles; the last row may be shorter.
+template <class Some>
+void in_packs(std::uint32_t count, const Some& some) {
+  std::uint32_t e = 0;
+  for (; e + width <= count; e += width) some(e, Whole{});
+  if (e < count) some(e, First{count - e});
 }
 
-void triangle_force(std::uint32_t count, const Triangles& t, const double* const p[4], double* __restrict fx,
-                    double* __restrict fy, double* __restrict spare) {
-  const double* __restrict g1x = t.gradient[0], * __restrict g1y = t.gradient[1], * __restrict g2x = t.gradient[2], * __restrict g2y = t.gradient[3], * __restrict area = t.area;
-  const double* __restrict pxx = p[0], * __restrict pxy = p[1], * __restrict pyx = p[2], * __restrict pyy = p[3];
-  double* __restrict second_x = spare, * __restrict second_y = spare + count;
-  double* __restrict third_x = spare + 2 * count, * __restrict third_y = spare + 3 * count;
-#pragma GCC ivdep
-  for (std::uint32_t e = 0; e < count; ++e) {
-    second_x[e] = area[e] * (pxx[e] * g1x[e] + pxy[e] * g1y[e]);
-    second_y[e] = area[e] * (pyx[e] * g1x[e] + pyy[e] * g1y[e]);
-    third_x[e] = area[e] * (pxx[e] * g2x[e] + pxy[e] * g2y[e]);
-    third_y[e] = area[e] * (pyx[e] * g2x[e] + pyy[e] * g2y[e]);
+/// The patches with these numbers; lanes beyond `count` repeat the first.
+template <bool apart>
+simd::Packs2 patches_at(const LocalVectors& at, const std::uint32_t* number, std::uint32_t count) {
+  const double* from[width];
+  double both[2 * width];
+  for (std::uint32_t lane = 0; lane < width; ++lane) {
+    const std::uint32_t i = number[lane < count ? lane : 0];
+    if constexpr (apart) {
+      both[2 * lane] = at.x[i];
+      both[2 * lane + 1] = at.y[i];
+      from[lane] = both + 2 * lane;
+    } else {
+      from[lane] = at.x + 2 * i;
+    }
   }
-  for (std::uint32_t e = 0; e < count; ++e) {
-    const std::uint32_t i0 = t.corner[0][e], i1 = t.corner[1][e], i2 = t.corner[2][e];
-    fx[i0] += second_x[e] + third_x[e];
-    fy[i0] += second_y[e] + third_y[e];
-    fx[i1] -= second_x[e];
-    fy[i1] -= second_y[e];
-    fx[i2] -= third_x[e];
-    fy[i2] -= third_y[e];
-  }
+  return simd::gather_points(from);
+}
+
+template <bool apart>
+void gradient_of_triangles(std::uint32_t count, const Triangles& t, const LocalVectors& at,
+                           double* const f[4]) {
+  double *fxx = f[0], *fxy = f[1], *fyx = f[2], *fyy = f[3];
+  in_packs(
+      count, [&](std::uint32_t e, auto row) __attribute__((always_inline)) {
+        const simd::Packs2 first = patches_at<apart>(at, t.corner[0] + e, row.count),
+                           second = patches_at<apart>(at, t.corner[1] + e, row.count) - first,
+                           third = patches_at<apart>(at, t.corner[2] + e, row.count) - first;
+        const Pack g1x = row.load(t.gradient[0] + e), g1y = row.load(t.gradient[1] + e),
+                   g2x = row.load(t.gradient[2] + e), g2y = row.load(t.gradient[3] + e);
+        row.store(1.0 + (second.x * g1x + third.x * g2x), fxx + e);
+        row.store(second.x * g1y + third.x * g2y, fxy + e);
+        row.store(second.y * g1x + third.y * g2x, fyx + e);
+        row.store(1.0 + (second.y * g1y + third.y * g2y), fyy + e);
+      });
+}
+
+void triangle_gradient(std::uint32_t count, const Triangles& t, const LocalVectors& at, double* const f[4]) {
+  with(at.apart(), [&](auto apart) { gradient_of_triangles<apart>(count, t, at, f); });
+}
+
+template <bool apart>
+void force_of_triangles(std::uint32_t count, const Triangles& t, const double* const p[4],
+                        const LocalVectors& force) {
+  const auto give = [&](std::uint32_t i, double x, double y) __attribute__((always_inline)) {
+    double* to = apart ? force.x + i : force.x + 2 * i;
+    *to += x;
+    *(apart ? force.y + i : to + 1) += y;
+  };
+  in_packs(
+      count, [&](std::uint32_t e, auto row) __attribute__((always_inline)) {
+        const Pack pxx = row.load(p[0] + e), pxy = row.load(p[1] + e), pyx = row.load(p[2] + e),
+                   pyy = row.load(p[3] + e), area = row.load(t.area + e);
+        const Pack g1x = row.load(t.gradient[0] + e), g1y = row.load(t.gradient[1] + e),
+                   g2x = row.load(t.gradient[2] + e), g2y = row.load(t.gradient[3] + e);
+        // What is taken off the second and the third corner, x and y of each.
+        const Pack off[4] = {area * (pxx * g1x + pxy * g1y), area * (pyx * g1x + pyy * g1y),
+                             area * (pxx * g2x + pxy * g2y), area * (pyx * g2x + pyy * g2y)};
+        double of[width][4], *rows[width];
+        for (std::uint32_t lane = 0; lane < width; ++lane) rows[lane] = of[lane];
+        simd::scatter_rows(off, rows);
+        for (std::uint32_t lane = 0; lane < row.count; ++lane) {
+          const double* o = of[lane];
+          give(t.corner[0][e + lane], o[0] + o[2], o[1] + o[3]);
+          give(t.corner[1][e + lane], -o[0], -o[1]);
+          give(t.corner[2][e + lane], -o[2], -o[3]);
+        }
+      });
+}
+
+void triangle_force(std::uint32_t count, const Triangles& t, const double* const p[4],
+                    const LocalVectors& force) {
+  with(force.apart(), [&](auto apart) { force_of_triangles<apart>(count, t, p, force); });
 }
 
 double sum(std::uint32_t count, const double* value) {
@@ -199,19 +258,28 @@ struct Products {
 
 /// What accelerate() is given.
 struct Patches {
-  const double *mass, *inverse_mass, *fx, *fy;
+  const double *mass, *inverse_mass;
+  LocalVectors force;
   double *v, *middle;
 };
 
 /// As many patches as there are lanes, from patch i on; their velocities go to packs k and k + 1 of the sums.
-template <bool all, bool same_mass>
+template <bool all, bool same_mass, bool apart>
 [[gnu::always_inline]] inline void accelerate_some(const VelocityUpdate& how, const Patches& patches,
                                                    double share, std::uint32_t i, std::uint32_t k,
                                                    Products& products) {
   const Pack inverse = same_mass ? Pack(patches.inverse_mass[0]) : simd::load(patches.inverse_mass + i);
   Pack acceleration[2], mass[2] = {1.0, 1.0};
-  simd::interleave(simd::load(patches.fx + i) * inverse + how.gravity[0],
-                   simd::load(patches.fy + i) * inverse + how.gravity[1], acceleration);
+  if constexpr (apart) {
+    simd::interleave(simd::load(patches.force.x + i) * inverse + how.gravity[0],
+                     simd::load(patches.force.y + i) * inverse + how.gravity[1], acceleration);
+  } else {
+    Pack beside[2] = {inverse, inverse}, gravity[2];
+    if constexpr (!same_mass) simd::interleave(inverse, inverse, beside);
+    simd::interleave(how.gravity[0], how.gravity[1], gravity);
+    for (std::uint32_t half = 0; half < 2; ++half)
+      acceleration[half] = simd::load(patches.force.x + 2 * i + half * width) * beside[half] + gravity[half];
+  }
   if (!same_mass) simd::interleave(simd::load(patches.mass + i), simd::load(patches.mass + i), mass);
   for (std::uint32_t half = 0; half < 2; ++half) {
     double* at = patches.v + 2 * i + half * width;
@@ -223,7 +291,7 @@ template <bool all, bool same_mass>
   }
 }
 
-template <bool all, bool same_mass>
+template <bool all, bool same_mass, bool apart>
 void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patches& patches, double share,
                     Products& products) {
   std::uint32_t i = 0;
@@ -231,7 +299,7 @@ void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patche
   constexpr std::uint32_t most = lanes / 2 > width ? lanes / 2 : width;
   for (; i + most <= count; i += most) {
     for (std::uint32_t part = 0; part < most / width; ++part)
-      accelerate_some<all, same_mass>(how, patches, share, i + part * width, 2 * part, products);
+      accelerate_some<all, same_mass, apart>(how, patches, share, i + part * width, 2 * part, products);
   }
   const std::uint32_t rest = count - i;
   if (rest == 0) return;
@@ -241,14 +309,15 @@ void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patche
   for (std::uint32_t j = 0; j < rest; ++j) {
     mass[j] = same_mass ? 1 : patches.mass[i + j];
     inverse_mass[j] = patches.inverse_mass[same_mass ? 0 : i + j];
-    fx[j] = patches.fx[i + j];
-    fy[j] = patches.fy[i + j];
+    const LocalVectors at = patches.force.from(i + j);
+    fx[j] = *at.x;
+    fy[j] = *at.y;
     v[2 * j] = patches.v[2 * (i + j)];
     v[2 * j + 1] = patches.v[2 * (i + j) + 1];
   }
-  const Patches few{mass, inverse_mass, fx, fy, v, patches.middle != nullptr ? middle : nullptr};
+  const Patches few{mass, inverse_mass, {fx, fy, 1}, v, patches.middle != nullptr ? middle : nullptr};
   for (std::uint32_t part = 0; part < most / width; ++part)
-    accelerate_some<all, false>(how, few, share, part * width, 2 * part, products);
+    accelerate_some<all, false, true>(how, few, share, part * width, 2 * part, products);
   for (std::uint32_t j = 0; j < 2 * rest; ++j) {
     patches.v[2 * i + j] = v[j];
     if (patches.middle != nullptr) patches.middle[2 * i + j] = middle[j];
@@ -256,19 +325,16 @@ void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patche
 }
 
 void accelerate(std::uint32_t count, const VelocityUpdate& how, bool same_mass, const double* mass,
-                const double* inverse_mass, const double* fx, const double* fy, double* v, double* middle,
+                const double* inverse_mass, const LocalVectors& force, double* v, double* middle,
                 double share, VelocitySums& sums) {
-  const Patches patches{mass, inverse_mass, fx, fy, v, middle};
+  const Patches patches{mass, inverse_mass, force, v, middle};
   Products products;
-  if (same_mass && !how.all_sums) {
-    accelerate_all<false, true>(count, how, patches, share, products);
-  } else if (same_mass) {
-    accelerate_all<true, true>(count, how, patches, share, products);
-  } else if (!how.all_sums) {
-    accelerate_all<false, false>(count, how, patches, share, products);
-  } else {
-    accelerate_all<true, false>(count, how, patches, share, products);
-  }
+  with(how.all_sums, [&](auto all) {
+    with(same_mass, [&](auto same) {
+      with(force.apart(),
+           [&](auto apart) { accelerate_all<all, same, apart>(count, how, patches, share, products); });
+    });
+  });
   const double factor = same_mass ? mass[0] : 1;
   sums.across += factor * products.across.total();
   sums.before += factor * products.before.total();

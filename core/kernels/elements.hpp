@@ -3,7 +3,7 @@
 // The loops over elements and patches of bodies of many elements, over plain arrays, so that they can be
 // compiled for several instruction sets. Every sum runs in an order that the widths of vectors do not change:
 // sums over elements go to eight lanes that are added at the end. Patch vectors (displacement, velocity) are
-// stored x, y, x, y, ...; within a subdomain x and y are apart.
+// stored x, y, x, y, ...; within a subdomain they are LocalVectors.
 
 #include <cstdint>
 
@@ -11,6 +11,18 @@ namespace talus::kernels {
 
 /// The lanes of a sum: element i goes to lane i mod 8.
 inline constexpr std::uint32_t lanes = 8;
+
+/// Vectors of the patches of a subdomain. Apart, x and y have rows of their own (`stride` 1), for lattices,
+/// whose cells read rows in packs; beside each other (2) they are for triangles, whose corners are read one
+/// by one.
+struct LocalVectors {
+  double *x, *y;
+  std::uint32_t stride;
+
+  bool apart() const { return stride == 1; }
+  /// From patch i on.
+  LocalVectors from(std::uint32_t i) const { return {x + stride * i, y + stride * i, stride}; }
+};
 
 /// Triangles of any shape: the numbers of their corners, ∇w of the second and third, area; [triangle].
 struct Triangles {
@@ -33,8 +45,8 @@ struct VelocitySums {
 };
 
 struct ElementKernels {
-  /// d += dt v of `count` patches, then x and y of d.
-  void (*move)(std::uint32_t count, double dt, double* d, const double* v, double* x, double* y);
+  /// d += dt v of `count` patches, and `at` = d.
+  void (*move)(std::uint32_t count, double dt, double* d, const double* v, const LocalVectors& at);
 
   /// F = I + Σ d_i ⊗ ∇w_i of the lower and upper triangles of `cells` cells side by side. Cell c has the
   /// corners c, c + 1 of the bottom row and of the top row; its lower triangle has the corners bottom c,
@@ -49,12 +61,10 @@ struct ElementKernels {
   void (*lattice_force)(std::uint32_t cells, const double gradient[4], double area, const double* const p[4],
                         double* bottom_x, double* bottom_y, double* top_x, double* top_y);
 
-  void (*triangle_gradient)(std::uint32_t count, const Triangles& triangles, const double* x, const double* y,
+  void (*triangle_gradient)(std::uint32_t count, const Triangles& triangles, const LocalVectors& at,
                             double* const f[4]);
-
-  /// `spare`: 4 count doubles.
   void (*triangle_force)(std::uint32_t count, const Triangles& triangles, const double* const p[4],
-                         double* fx, double* fy, double* spare);
+                         const LocalVectors& force);
 
   /// Σ value, and Σ weight value.
   double (*sum)(std::uint32_t count, const double* value);
@@ -63,8 +73,8 @@ struct ElementKernels {
   /// `mass`, `inverse_mass`: [patch], or of all patches where `same_mass`. `middle`, unless null, takes v₋ +
   /// share (v₊ − v₋). Adds to `sums`.
   void (*accelerate)(std::uint32_t count, const VelocityUpdate& update, bool same_mass, const double* mass,
-                     const double* inverse_mass, const double* fx, const double* fy, double* v,
-                     double* middle, double share, VelocitySums& sums);
+                     const double* inverse_mass, const LocalVectors& force, double* v, double* middle,
+                     double share, VelocitySums& sums);
 };
 
 }  // namespace talus::kernels

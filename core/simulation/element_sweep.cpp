@@ -11,6 +11,28 @@ double* flat(std::vector<Vec2>& values, std::size_t patch) {
   return &values[patch].x;
 }
 
+using kernels::LocalVectors;
+
+/// Over twice as many values as there are patches.
+LocalVectors local_vectors(std::vector<double>& values, bool apart) {
+  double* first = values.data();
+  return apart ? LocalVectors{first, first + values.size() / 2, 1} : LocalVectors{first, first + 1, 2};
+}
+
+Vec2 vector_of(const LocalVectors& vectors, std::uint32_t patch) {
+  const LocalVectors at = vectors.from(patch);
+  return {*at.x, *at.y};
+}
+void set(const LocalVectors& vectors, std::uint32_t patch, Vec2 value) {
+  const LocalVectors at = vectors.from(patch);
+  *at.x = value.x;
+  *at.y = value.y;
+}
+void clear(const LocalVectors& vectors, std::uint32_t count) {
+  std::fill_n(vectors.x, vectors.stride * count, 0.0);
+  if (vectors.apart()) std::fill_n(vectors.y, count, 0.0);
+}
+
 using Four = std::array<double*, 4>;
 
 Four rows(double (&component)[4][ElementBuffer::most]) {
@@ -35,8 +57,7 @@ ElementSweep::ElementSweep(const Model& model, SimdLevel level)
 
 ElementSweep::Workspace ElementSweep::workspace() const {
   Workspace w;
-  for (auto* values : {&w.x, &w.y, &w.fx, &w.fy}) values->resize(most_patches_);
-  w.spare.resize(4 * ElementBuffer::most);
+  for (auto* values : {&w.displacement, &w.force}) values->resize(2 * most_patches_);
   return w;
 }
 
@@ -48,22 +69,22 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
   const std::uint32_t first = model.first_element(body);
   const std::uint32_t batch = materials.batch_of(first);
   const Four f = rows(w.elements.deformation), p = rows(w.elements.stress);
-  double *x = w.x.data(), *y = w.y.data(), *fx = w.fx.data(), *fy = w.fy.data();
+  const bool apart = lattice.area > 0;
+  const LocalVectors at = local_vectors(w.displacement, apart), force = local_vectors(w.force, apart);
 
   const auto enter = [&](const PatchRun& run) {
     kernels_.move(run.count, motion.own_behind, flat(motion.patch_displacement, run.patch),
-                  flat(motion.patch_velocity, run.patch), x + run.local, y + run.local);
-    std::fill(fx + run.local, fx + run.local + run.count, 0.0);
-    std::fill(fy + run.local, fy + run.local + run.count, 0.0);
+                  flat(motion.patch_velocity, run.patch), at.from(run.local));
+    clear(force.from(run.local), run.count);
   };
   const auto leave = [&](const PatchRun& run, SweepSums& sum) {
     if (!step.update) {
       for (std::uint32_t i = 0; i < run.count; ++i)
-        motion.patch_force[run.patch + i] = {fx[run.local + i], fy[run.local + i]};
+        motion.patch_force[run.patch + i] = vector_of(force, run.local + i);
       return;
     }
     kernels_.accelerate(run.count, step.velocity, run.same_mass, model.patch_mass.data() + run.patch,
-                        step.inverse_mass + run.patch, fx + run.local, fy + run.local,
+                        step.inverse_mass + run.patch, force.from(run.local),
                         flat(motion.patch_velocity, run.patch),
                         step.keep ? &step.middle[run.patch].x : nullptr, step.share, sum.own);
   };
@@ -71,10 +92,8 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
   for (std::uint32_t s = begin; s < end; ++s) {
     const Subdomain& subdomain = partition.subdomains[s];
     for (std::uint32_t i = subdomain.slot_begin; i < subdomain.slot_end; ++i) {
-      const Vec2 d = motion.patch_displacement[partition.slot_patch[i]];
-      x[partition.slot_local[i]] = d.x;
-      y[partition.slot_local[i]] = d.y;
-      fx[partition.slot_local[i]] = fy[partition.slot_local[i]] = 0;
+      set(at, partition.slot_local[i], motion.patch_displacement[partition.slot_patch[i]]);
+      set(force, partition.slot_local[i], {});
     }
     // Own patches enter when the first element needs them and leave after the last one: they are read from
     // memory and written to it once.
@@ -87,20 +106,20 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
       const std::uint32_t bottom = chunk.bottom, top = chunk.top;
       for (; entered < chunk.run_needed; ++entered) enter(partition.runs[entered]);
       if (chunk.cells > 0) {
-        kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), x + bottom, y + bottom, x + top,
-                                  y + top, f.data());
+        kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
+                                  at.x + top, at.y + top, f.data());
       } else {
-        kernels_.triangle_gradient(chunk.count, triangles_of(partition, chunk), x, y, f.data());
+        kernels_.triangle_gradient(chunk.count, triangles_of(partition, chunk), at, f.data());
       }
       materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
       if (chunk.cells > 0) {
-        kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), fx + bottom,
-                               fy + bottom, fx + top, fy + top);
+        kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), force.x + bottom,
+                               force.y + bottom, force.x + top, force.y + top);
         sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
         sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
       } else {
         const kernels::Triangles triangles = triangles_of(partition, chunk);
-        kernels_.triangle_force(chunk.count, triangles, p.data(), fx, fy, w.spare.data());
+        kernels_.triangle_force(chunk.count, triangles, p.data(), force);
         sum.stored += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.energy);
         sum.dissipated += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.dissipated);
       }
@@ -108,7 +127,7 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
     }
 
     for (std::uint32_t i = subdomain.slot_begin; i < subdomain.slot_end; ++i)
-      slot_[i] = {fx[partition.slot_local[i]], fy[partition.slot_local[i]]};
+      slot_[i] = vector_of(force, partition.slot_local[i]);
   }
 }
 

@@ -38,8 +38,7 @@ class ElementSweep {
 
   /// What one thread needs.
   struct Workspace {
-    std::vector<double> x, y, fx, fy;  ///< [patch of the subdomain] displacement, m, and force, N/m
-    std::vector<double> spare;
+    std::vector<double> displacement, force;  ///< [2 · patch of the subdomain] m, N/m
     ElementBuffer elements;
   };
   Workspace workspace() const;

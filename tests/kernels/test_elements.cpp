@@ -44,6 +44,21 @@ struct Tensors {
   }
 };
 
+/// Vectors of patches, apart or beside each other.
+struct Vectors {
+  std::vector<double> value;
+  LocalVectors local;
+
+  Vectors(const std::vector<double>& x, const std::vector<double>& y, bool apart) : value(2 * x.size()) {
+    double* first = value.data();
+    local = apart ? LocalVectors{first, first + x.size(), 1} : LocalVectors{first, first + 1, 2};
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+      *local.from(i).x = x[i];
+      *local.from(i).y = y[i];
+    }
+  }
+};
+
 /// The cells of a lattice as triangles with numbers: bottom row 0, 1, ..., then the top row.
 struct CellsAsTriangles {
   std::vector<std::uint32_t> corner[3];
@@ -73,6 +88,7 @@ const std::array<double, 4> steep{2.5, -1.25, 0.5, 3};
 
 TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  const bool apart = GENERATE(true, false);
   Random random;
   for (const std::uint32_t cells : {1u, 7u, 8u, 21u, 128u}) {
     const std::uint32_t row = cells + 1;
@@ -80,7 +96,7 @@ TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernel
     Tensors as_cells(2 * cells), as_triangles(2 * cells);
     loops.lattice_gradient(cells, steep.data(), x.data(), y.data(), x.data() + row, y.data() + row,
                            as_cells.rows.data());
-    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1).arrays(), x.data(), y.data(),
+    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1).arrays(), Vectors(x, y, apart).local,
                             as_triangles.rows.data());
     double largest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -93,19 +109,22 @@ TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernel
 
 TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  const bool apart = GENERATE(true, false);
   Random random;
   for (const std::uint32_t cells : {1u, 7u, 8u, 21u, 128u}) {
     const std::uint32_t row = cells + 1;
     const Tensors stress(2 * cells, &random);
     const std::vector<double> before_x = random.numbers(2 * row), before_y = random.numbers(2 * row);
-    std::vector<double> x = before_x, y = before_y, fx = before_x, fy = before_y, spare(8 * cells);
+    std::vector<double> x = before_x, y = before_y;
+    const Vectors force(before_x, before_y, apart);
     loops.lattice_force(cells, steep.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
                         y.data() + row);
     loops.triangle_force(2 * cells, CellsAsTriangles(cells, steep, 0.75).arrays(), stress.rows.data(),
-                         fx.data(), fy.data(), spare.data());
+                         force.local);
     double largest = 0, sum_x = 0, moved = 0;
     for (std::size_t i = 0; i < 2 * row; ++i) {
-      largest = std::max({largest, std::abs(x[i] - fx[i]), std::abs(y[i] - fy[i])});
+      const LocalVectors at = force.local.from(static_cast<std::uint32_t>(i));
+      largest = std::max({largest, std::abs(x[i] - *at.x), std::abs(y[i] - *at.y)});
       sum_x += x[i] - before_x[i];
       moved = std::max(moved, std::abs(x[i] - before_x[i]));
     }
@@ -135,6 +154,7 @@ TEST_CASE("sums go to eight lanes, whatever the number of values", "[kernels]") 
 
 TEST_CASE("patches take their accelerations, and the products of their velocities are right", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  const bool apart = GENERATE(true, false);
   Random random;
   for (const std::uint32_t count : {1u, 3u, 4u, 9u, 130u}) {
     for (const bool same : {true, false}) {
@@ -142,12 +162,13 @@ TEST_CASE("patches take their accelerations, and the products of their velocitie
       if (same) std::fill(mass.begin(), mass.end(), mass[0]);
       for (const double m : mass) inverse.push_back(1 / m);
       const std::vector<double> fx = random.numbers(count), fy = random.numbers(count);
+      const Vectors given(fx, fy, apart);
       const std::vector<double> before = random.numbers(2 * count);
       std::vector<double> v = before, middle(2 * count);
       VelocitySums sums{};
       const VelocityUpdate update{0.75, 0.5, {0.25, -9.81}, true};
-      loops.accelerate(count, update, same, mass.data(), inverse.data(), fx.data(), fy.data(), v.data(),
-                       middle.data(), 0.25, sums);
+      loops.accelerate(count, update, same, mass.data(), inverse.data(), given.local, v.data(), middle.data(),
+                       0.25, sums);
       double across = 0, old = 0, after = 0, momentum[2] = {};
       for (std::uint32_t i = 0; i < 2 * count; ++i) {
         const double force = i % 2 == 0 ? fx[i / 2] : fy[i / 2], m = mass[i / 2];
@@ -168,8 +189,8 @@ TEST_CASE("patches take their accelerations, and the products of their velocitie
 
       VelocitySums one{};
       std::vector<double> again = before;
-      loops.accelerate(count, {0.75, 0.5, {0.25, -9.81}, false}, same, mass.data(), inverse.data(), fx.data(),
-                       fy.data(), again.data(), nullptr, 0.25, one);
+      loops.accelerate(count, {0.75, 0.5, {0.25, -9.81}, false}, same, mass.data(), inverse.data(),
+                       given.local, again.data(), nullptr, 0.25, one);
       CHECK(again == v);
       CHECK(one.across == sums.across);
       CHECK(one.before == 0);
@@ -181,11 +202,12 @@ TEST_CASE("patches move and lie down by components", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
   Random random;
   const std::vector<double> before = random.numbers(22), v = random.numbers(22);
-  std::vector<double> d = before, x(11), y(11);
-  loops.move(11, 0.5, d.data(), v.data(), x.data(), y.data());
-  for (std::size_t i = 0; i < 11; ++i) {
+  const Vectors at(std::vector<double>(11), std::vector<double>(11), GENERATE(true, false));
+  std::vector<double> d = before;
+  loops.move(11, 0.5, d.data(), v.data(), at.local);
+  for (std::uint32_t i = 0; i < 11; ++i) {
     CHECK(d[2 * i] == before[2 * i] + 0.5 * v[2 * i]);
-    CHECK(x[i] == d[2 * i]);
-    CHECK(y[i] == d[2 * i + 1]);
+    CHECK(*at.local.from(i).x == d[2 * i]);
+    CHECK(*at.local.from(i).y == d[2 * i + 1]);
   }
 }

@@ -33,6 +33,10 @@ struct Pack {
   Pack(__m512d v) : value(v) {}
   Pack(double v) : value(_mm512_set1_pd(v)) {}
 };
+/// A point or vector in each lane.
+struct Packs2 {
+  Pack x, y;
+};
 
 inline Pack load(const double* from) {
   return _mm512_loadu_pd(from);
@@ -65,6 +69,18 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
                 odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
   p = _mm512_permutex2var_pd(from[0].value, even, from[1].value);
   q = _mm512_permutex2var_pd(from[0].value, odd, from[1].value);
+}
+/// Two doubles in a row from a place of each lane.
+inline Packs2 gather_points(const double* const* from) {
+  const auto four = [&](int lane) {  // of this lane and each second one after it
+    const __m256d low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[lane])),
+                                             _mm_loadu_pd(from[lane + 2]), 1),
+                  high = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[lane + 4])),
+                                              _mm_loadu_pd(from[lane + 6]), 1);
+    return _mm512_maskz_insertf64x4(0xFF, _mm512_castpd256_pd512(low), high, 1);
+  };
+  const __m512d even = four(0), odd = four(1);
+  return {_mm512_maskz_unpacklo_pd(0xFF, even, odd), _mm512_maskz_unpackhi_pd(0xFF, even, odd)};
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
@@ -169,6 +185,10 @@ struct Pack {
   Pack(__m256d v) : value(v) {}
   Pack(double v) : value(_mm256_set1_pd(v)) {}
 };
+/// A point or vector in each lane.
+struct Packs2 {
+  Pack x, y;
+};
 
 inline Pack load(const double* from) {
   return _mm256_loadu_pd(from);
@@ -202,6 +222,15 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
                 high = _mm256_permute2f128_pd(from[0].value, from[1].value, 0x31);
   p = _mm256_unpacklo_pd(low, high);
   q = _mm256_unpackhi_pd(low, high);
+}
+/// Two doubles in a row from a place of each lane.
+inline Packs2 gather_points(const double* const* from) {
+  const auto two = [&](int lane) {  // of this lane and the second after it
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[lane])),
+                                _mm_loadu_pd(from[lane + 2]), 1);
+  };
+  const __m256d even = two(0), odd = two(1);
+  return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
@@ -294,6 +323,10 @@ struct Pack {
   Pack() = default;
   Pack(double v) : value(v) {}
 };
+/// A point or vector in each lane.
+struct Packs2 {
+  Pack x, y;
+};
 
 inline Pack load(const double* from) {
   return *from;
@@ -321,6 +354,10 @@ inline void interleave(Pack p, Pack q, Pack* to) {
 inline void separate(const Pack* from, Pack& p, Pack& q) {
   p = from[0];
   q = from[1];
+}
+/// Two doubles in a row from a place of each lane.
+inline Packs2 gather_points(const double* const* from) {
+  return {from[0][0], from[0][1]};
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
 inline void gather_rows(const double* const* from, Pack* to) {
@@ -407,10 +444,6 @@ inline Pack clamp(Pack p, Pack low, Pack high) {
   return min(max(p, low), high);
 }
 
-/// A point or vector in each lane.
-struct Packs2 {
-  Pack x, y;
-};
 inline Packs2 operator+(Packs2 p, Packs2 q) {
   return {p.x + q.x, p.y + q.y};
 }
