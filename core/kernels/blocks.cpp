@@ -1,6 +1,9 @@
 #include "kernels/blocks.hpp"
 
+#include <talus/simd/pack.hpp>
+
 #include <cmath>
+#include <cstring>
 
 namespace talus::kernels::TALUS_KERNEL_LEVEL {
 namespace {
@@ -12,10 +15,20 @@ double larger(double p, double q) {
   return p > q ? p : q;
 }
 
-/// `count` is a constant where this is inlined for quadrilaterals, which most blocks are.
-inline __attribute__((always_inline)) void follow_one(const BodyMotion& m, const double* reference_x,
-                                                      const double* reference_y, BoundaryCorner* corners,
-                                                      std::uint32_t count, SpeedExtremes& speeds) {
+/// Four doubles that the compiler keeps side by side where the instruction set can, with the operators of
+/// numbers. By reference, since how it is passed depends on the instruction set.
+using Quad [[gnu::vector_size(32)]] = double;
+
+inline void load(const double* from, Quad& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+template <class Vector>
+inline void store(const Vector& from, double* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+void follow_any(const BodyMotion& m, const double* reference_x, const double* reference_y,
+                BoundaryCorner* corners, std::uint32_t count, SpeedExtremes& speeds) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double px = reference_x[i], py = reference_y[i];
     corners[i].x = px + (m.u.x + m.h.xx * px + m.h.xy * py);
@@ -42,22 +55,80 @@ inline __attribute__((always_inline)) void follow_one(const BodyMotion& m, const
   }
 }
 
+/// Speeds so far, of four corners at a time.
+struct SpeedRows {
+  Quad squared{}, sum{}, low_x, high_x, low_y, high_y;
+
+  /// From the velocity of any corner on.
+  explicit SpeedRows(Vec2 first) {
+    low_x = high_x = Quad{} + first.x;
+    low_y = high_y = Quad{} + first.y;
+  }
+  void add(const Quad& vx, const Quad& vy) {
+    const Quad here = vx * vx + vy * vy;
+    squared = squared > here ? squared : here;
+    sum += here;
+    low_x = low_x < vx ? low_x : vx;
+    high_x = high_x > vx ? high_x : vx;
+    low_y = low_y < vy ? low_y : vy;
+    high_y = high_y > vy ? high_y : vy;
+  }
+  void add_to(SpeedExtremes& all) const {
+    for (int i = 0; i < 4; ++i) all.add({squared[i], sum[i], low_x[i], high_x[i], low_y[i], high_y[i], true});
+  }
+};
+
+/// A quadrilateral, which most blocks are.
+inline void follow_quadrilateral(const BodyMotion& m, const double* reference_x, const double* reference_y,
+                                 BoundaryCorner* corner, SpeedRows& speeds) {
+  Quad px, py;
+  load(reference_x, px);
+  load(reference_y, py);
+  const Quad x = px + (m.u.x + m.h.xx * px + m.h.xy * py), y = py + (m.u.y + m.h.yx * px + m.h.yy * py);
+  const Quad vx = m.velocity.x + m.rate.xx * px + m.rate.xy * py,
+             vy = m.velocity.y + m.rate.yx * px + m.rate.yy * py;
+  speeds.add(vx, vy);
+  const Quad dx = __builtin_shufflevector(x, x, 1, 2, 3, 0) - x,
+             dy = __builtin_shufflevector(y, y, 1, 2, 3, 0) - y;
+  Quad length = dx * dx + dy * dy;
+  for (int i = 0; i < 4; ++i) length[i] = std::sqrt(length[i]);
+  const Quad tx = length > 0 ? dx / length : Quad{}, ty = length > 0 ? dy / length : Quad{};
+
+  // Rows become corners: x, y, tangent of each, then its velocity.
+  const Quad even = __builtin_shufflevector(x, y, 0, 4, 2, 6),
+             odd = __builtin_shufflevector(x, y, 1, 5, 3, 7),
+             even_t = __builtin_shufflevector(tx, ty, 0, 4, 2, 6),
+             odd_t = __builtin_shufflevector(tx, ty, 1, 5, 3, 7);
+  store(__builtin_shufflevector(even, even_t, 0, 1, 4, 5), &corner[0].x);
+  store(__builtin_shufflevector(odd, odd_t, 0, 1, 4, 5), &corner[1].x);
+  store(__builtin_shufflevector(even, even_t, 2, 3, 6, 7), &corner[2].x);
+  store(__builtin_shufflevector(odd, odd_t, 2, 3, 6, 7), &corner[3].x);
+  const Quad even_v = __builtin_shufflevector(vx, vy, 0, 4, 2, 6),
+             odd_v = __builtin_shufflevector(vx, vy, 1, 5, 3, 7);
+  store(__builtin_shufflevector(even_v, even_v, 0, 1), &corner[0].vx);
+  store(__builtin_shufflevector(odd_v, odd_v, 0, 1), &corner[1].vx);
+  store(__builtin_shufflevector(even_v, even_v, 2, 3), &corner[2].vx);
+  store(__builtin_shufflevector(odd_v, odd_v, 2, 3), &corner[3].vx);
+  for (int i = 0; i < 4; ++i) corner[i].length = length[i];
+}
+
 void follow(const Block* blocks, const BodyMotion* motion, const double* reference_x,
             const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
             SpeedExtremes& speeds) {
+  while (begin < end && blocks[begin].corner_count == 0) ++begin;
+  if (begin == end) return;
+  const Vec2 any = motion[begin].velocity;
+  if (!speeds.any) speeds = {0, 0, any.x, any.x, any.y, any.y, true};
+  SpeedRows rows(any);
   for (std::size_t b = begin; b < end; ++b) {
     const std::uint32_t first = blocks[b].corner_begin, count = blocks[b].corner_count;
-    if (count == 0) continue;
-    if (!speeds.any) {
-      const double vx = motion[b].velocity.x, vy = motion[b].velocity.y;
-      speeds = {0, 0, vx, vx, vy, vy, true};
-    }
-    if (count == 4) {
-      follow_one(motion[b], reference_x + first, reference_y + first, corners + first, 4, speeds);
-    } else {
-      follow_one(motion[b], reference_x + first, reference_y + first, corners + first, count, speeds);
+    if (count == 4 && simd::lanes > 1) {
+      follow_quadrilateral(motion[b], reference_x + first, reference_y + first, corners + first, rows);
+    } else if (count > 0) {
+      follow_any(motion[b], reference_x + first, reference_y + first, corners + first, count, speeds);
     }
   }
+  rows.add_to(speeds);
 }
 
 void move_blocks(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end) {
@@ -80,30 +151,55 @@ void move_blocks(const Block* blocks, double dt, BodyMotion* motion, std::size_t
   }
 }
 
-inline __attribute__((always_inline)) void sum_loads(std::uint32_t count, const PieceLoads* begin,
-                                                     const PieceLoads* end, const BodyPair* pairs,
-                                                     const double* fx, const double* fy, double* sum_x,
-                                                     double* sum_y) {
-  for (std::uint32_t i = 0; i < count; ++i) sum_x[i] = sum_y[i] = 0;
+/// Calls add(load) for the contacts that there are.
+template <class Add>
+inline void each_load(const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const Add& add) {
   for (const PieceLoads* at = begin; at != end; ++at) {
-    if (pairs[at->pair].contact_count == 0) continue;
-    for (std::uint32_t i = 0; i < count; ++i) sum_x[i] += fx[at->load + i];
-    for (std::uint32_t i = 0; i < count; ++i) sum_y[i] += fy[at->load + i];
+    if (pairs[at->pair].contact_count != 0) add(at->load);
   }
+}
+
+/// Σ p and Σ q.
+inline Vec2 sums(const Quad& p, const Quad& q) {
+  const Quad two = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
+  return {two[0] + two[2], two[1] + two[3]};
+}
+
+void add_to_quadrilateral(const double* reference_x, const double* reference_y, const PieceLoads* begin,
+                          const PieceLoads* end, const BodyPair* pairs, const double* fx, const double* fy,
+                          BodyForce& force) {
+  Quad x{}, y{}, px, py;
+  each_load(begin, end, pairs, [&](std::uint32_t at) {
+    Quad more_x, more_y;
+    load(fx + at, more_x);
+    load(fy + at, more_y);
+    x += more_x;
+    y += more_y;
+  });
+  load(reference_x, px);
+  load(reference_y, py);
+  const Vec2 sum = sums(x, y), of_x = sums(x * px, x * py), of_y = sums(y * px, y * py);
+  force.force.x += sum.x;
+  force.force.y += sum.y;
+  force.moment.xx += of_x.x;
+  force.moment.xy += of_x.y;
+  force.moment.yx += of_y.x;
+  force.moment.yy += of_y.y;
 }
 
 void add_loads(std::uint32_t count, const double* reference_x, const double* reference_y,
                const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const double* fx,
                const double* fy, BodyForce& force) {
+  if (count == 4) return add_to_quadrilateral(reference_x, reference_y, begin, end, pairs, fx, fy, force);
   constexpr std::uint32_t most = 16;
   double sum_x[most], sum_y[most];
   for (std::uint32_t part = 0; part < count; part += most) {
     const std::uint32_t here = count - part < most ? count - part : most;
-    if (count == 4) {
-      sum_loads(4, begin, end, pairs, fx, fy, sum_x, sum_y);
-    } else {
-      sum_loads(here, begin, end, pairs, fx + part, fy + part, sum_x, sum_y);
-    }
+    for (std::uint32_t i = 0; i < here; ++i) sum_x[i] = sum_y[i] = 0;
+    each_load(begin, end, pairs, [&](std::uint32_t at) {
+      for (std::uint32_t i = 0; i < here; ++i) sum_x[i] += fx[at + part + i];
+      for (std::uint32_t i = 0; i < here; ++i) sum_y[i] += fy[at + part + i];
+    });
     for (std::uint32_t i = 0; i < here; ++i) {
       const double px = reference_x[part + i], py = reference_y[part + i];
       force.force.x += sum_x[i];
