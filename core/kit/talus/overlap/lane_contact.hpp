@@ -87,7 +87,7 @@ class LaneContact {
   void sort_by_pattern(std::vector<TouchingPair>& touching) {
     if (lanes == 1 || touching.size() <= lanes) return;
     constexpr std::size_t bins = 64;
-    const auto bin = [](const TouchingPair& pair) { return (pair.pattern * 40503u >> 10) % bins; };
+    const auto bin = [](const TouchingPair& pair) { return (pair.pattern() * 40503u >> 10) % bins; };
     std::uint32_t start[bins + 1] = {};
     for (const TouchingPair& pair : touching) ++start[bin(pair) + 1];
     for (std::size_t i = 0; i < bins; ++i) start[i + 1] += start[i];
@@ -124,13 +124,11 @@ class LaneContact {
         if constexpr (Law::frictional) report.slip_loss = stored_before(batch, pair);
         continue;
       }
-      TouchingPair touching{number, {0, 0}, 0, false};
-      for (int p = 0; p < 2; ++p) {
-        const int side = static_cast<int>(facing[p][lane]),
-                  size = static_cast<int>(pieces[p].corners_in[lane]);
-        touching.start[p] = static_cast<std::uint32_t>(side == 0 ? size - 1 : side - 1);
-      }
-      touching_[pair.master_share == 0.5].push_back(touching);
+      const auto start = [&](int p) {  // the corner before the side that faces the other
+        const auto side = static_cast<std::uint32_t>(facing[p][lane]);
+        return (side == 0 ? pieces[p].corners_in[lane] : side) - 1;
+      };
+      touching_[pair.master_share == 0.5].push_back(TouchingPair::seen(number, start(0), start(1)));
     }
   }
 
@@ -198,10 +196,10 @@ class LaneContact {
     normal_damping(g, share, batch.dt, report);
     if constexpr (Law::frictional) friction(g, batch, area, report);
     const unsigned refused_bits = simd::bits(refused) & ((1u << g.count) - 1);
-    write<full>(batch, loads, g, report, refused_bits);
+    write<full>(loads, g, report, refused_bits);
     for (int lane = 0; refused_bits >> lane != 0; ++lane) {
       if ((refused_bits >> lane & 1) == 0) continue;
-      if (touching[begin + lane].unseen) {
+      if (touching[begin + lane].unseen()) {
         pairs_.push_back(g.pair[lane]);
       } else {
         general(g.pair[lane]);
@@ -408,10 +406,9 @@ class LaneContact {
   }
 
   template <bool full>
-  void write(const ContactBatch& batch, const ContactLoads& loads, const LaneGroup& g, const Report& report,
-             unsigned refused) {
+  void write(const ContactLoads& loads, const LaneGroup& g, const Report& report, unsigned refused) {
     for (auto& piece : loads_.at) piece[0] = piece[0] + piece[corners];
-    g.write_loads<corners, full>(batch, loads, refused, loads_.at);
+    g.write_loads<corners, full>(loads, refused, loads_.at);
     double* report_row[lanes];
     double spare[lanes][8];
     for (int lane = 0; lane < lanes; ++lane) {
@@ -428,8 +425,7 @@ class LaneContact {
       double *row[lanes], *second_row[lanes];
       for (int lane = 0; lane < lanes; ++lane) {
         const bool wanted = report_row[lane] != spare[lane];
-        row[lane] =
-            wanted ? loads.history + batch.pairs[g.pair[lane]].slot_start * friction_doubles : spare[lane];
+        row[lane] = wanted ? loads.history + g.slot[lane] * friction_doubles : spare[lane];
         second_row[lane] = row[lane] + 4;
         if (wanted) row[lane][8] = 0;
       }
@@ -438,11 +434,11 @@ class LaneContact {
       const Pack second[4] = {report.centre_x, report.centre_y, report.slip, remembered(g)};
       simd::scatter_rows(second, second_row);
     }
-    if (loads.reports != nullptr) write_contacts(batch, loads, g, report, refused);
+    if (loads.reports != nullptr) write_contacts(loads, g, report, refused);
   }
 
-  void write_contacts(const ContactBatch& batch, const ContactLoads& loads, const LaneGroup& g,
-                      const Report& report, unsigned refused) const {
+  void write_contacts(const ContactLoads& loads, const LaneGroup& g, const Report& report,
+                      unsigned refused) const {
     Pack load = 0.0;
     Packs2 moment{0.0, 0.0}, normal{0.0, 0.0};
     for (int role = 0; role < roles_; ++role) {
@@ -470,9 +466,8 @@ class LaneContact {
     simd::store(simd::abs(report.slip), value[7]);
     for (int lane = 0; lane < g.count; ++lane) {
       if ((refused >> lane & 1) != 0) continue;
-      loads.reports[batch.pairs[g.pair[lane]].slot_start] = {value[0][lane], value[1][lane], value[2][lane],
-                                                             value[3][lane], value[4][lane], value[5][lane],
-                                                             value[6][lane], value[7][lane]};
+      loads.reports[g.slot[lane]] = {value[0][lane], value[1][lane], value[2][lane], value[3][lane],
+                                     value[4][lane], value[5][lane], value[6][lane], value[7][lane]};
     }
   }
 

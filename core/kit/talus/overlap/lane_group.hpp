@@ -12,20 +12,25 @@ inline namespace TALUS_SIMD_LEVEL {
 /// side 1, so that the lanes of a group work on the same sides.
 struct TouchingPair {
   std::uint32_t pair;
-  std::uint32_t start[2];  ///< [body a, b]
-  /// Which sides met a step ago, 4 · master side + slave side as bits; of more than four sides, a number that
-  /// is alike where those are. It only decides who shares a group.
-  std::uint32_t pattern;
-  bool unseen;  ///< `start` is of an earlier step, and nobody has looked whether they overlap
+  /// 1 + start of body a + 8 start of body b + 64 pattern, as the history holds it. The pattern tells which
+  /// sides met a step ago, 4 · master side + slave side as bits; of more than four sides, a number that is
+  /// alike where those are. It only decides who shares a group.
+  std::uint32_t code;
 
   static constexpr double pattern_unit = 64;
+  /// Added to a code of an earlier step: nobody has looked whether the pieces overlap.
+  static constexpr std::uint32_t unseen_bit = 1u << 31;
 
-  /// From what the history holds: 1 + start[0] + 8 start[1] + 64 pattern.
   static TouchingPair remembered(std::uint32_t pair, double code) {
-    const auto all = static_cast<std::uint32_t>(code) - 1;
-    return {pair, {all % 8, all / 8 % 8}, all / 64, true};
+    return {pair, static_cast<std::uint32_t>(code) | unseen_bit};
   }
-  static double code_of(const std::uint32_t (&start)[2]) { return 1 + start[0] + 8 * start[1]; }
+  static TouchingPair seen(std::uint32_t pair, std::uint32_t start_a, std::uint32_t start_b) {
+    return {pair, 1 + start_a + 8 * start_b};
+  }
+  std::uint32_t start(int body) const { return (code - 1) >> (3 * body) & 7; }
+  std::uint32_t starts() const { return ((code - 1) & 63) + 1; }
+  std::uint32_t pattern() const { return ((code - 1) & ~unseen_bit) >> 6; }
+  bool unseen() const { return code >= unseen_bit; }
 };
 
 inline constexpr double no_history[8] = {0, 0, 0, 0, 0, 0, 0, 0};
@@ -40,6 +45,7 @@ struct LaneGroup {
   Pack normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping;
   alignas(64) double reduced_mass[lanes], side[lanes], starts[lanes];
   const double* history[lanes];  ///< of the previous step, or zeros
+  std::uint32_t slot[lanes], load_start[lanes];
 
   /// Fills the lanes from `touching`; those beyond `count` repeat the first.
   template <class Law>
@@ -55,10 +61,12 @@ struct LaneGroup {
       swapped[lane] = at.master_share == 0;
       side[lane] = swapped[lane] ? -1 : 1;
       const int a = swapped[lane] ? 1 : 0;
-      pieces[a].set(lane, batch.boundaries, piece.a, 0, 0, touch.start[0]);
-      pieces[1 - a].set(lane, batch.boundaries, piece.b, at.offset_x, at.offset_y, touch.start[1]);
+      pieces[a].set(lane, batch.boundaries, piece.a, 0, 0, touch.start(0));
+      pieces[1 - a].set(lane, batch.boundaries, piece.b, at.offset_x, at.offset_y, touch.start(1));
       reduced_mass[lane] = at.reduced_mass;
-      starts[lane] = TouchingPair::code_of(touch.start);
+      starts[lane] = touch.starts();
+      slot[lane] = at.slot_start;
+      load_start[lane] = piece.load_start;
       if constexpr (Law::frictional)
         history[lane] = at.contact_count == 0 ? no_history : batch.history + at.slot_start * friction_doubles;
       row[lane] = batch.interfaces.row[pieces[a].first[lane]->surface * batch.interfaces.surface_count +
@@ -70,11 +78,10 @@ struct LaneGroup {
 
   /// Loads of the lanes on their corners, from those on both pieces.
   template <int corners, bool full>
-  void write_loads(const ContactBatch& batch, const ContactLoads& loads, unsigned refused,
-                   const Packs2 (&load)[2][corners + 1]) const {
+  void write_loads(const ContactLoads& loads, unsigned refused, const Packs2 (&load)[2][corners + 1]) const {
     double *x[2][lanes], *y[2][lanes];  // by piece
     for (int lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t begin = batch.piece_pairs[batch.pairs[pair[lane]].piece_pair_start].load_start;
+      const std::uint32_t begin = load_start[lane];
       const int a = swapped[lane] ? 1 : 0;
       x[a][lane] = loads.fx + begin;
       y[a][lane] = loads.fy + begin;
