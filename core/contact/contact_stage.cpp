@@ -11,7 +11,7 @@ namespace talus {
 namespace {
 
 /// Skin as a share of the mean width of the moving bodies: at the speeds of the shipped scenes a search
-/// serves some 20 to 100 steps, and few pairs are candidates that do not touch.
+/// serves some 40 to 200 steps, and few pairs are candidates that do not touch.
 constexpr double skin_share = 0.1;
 /// Share of the mean width by which boxes are grown at least: bodies that only rounding makes overlap are
 /// candidates with the skin off, too.

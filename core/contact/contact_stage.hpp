@@ -37,8 +37,8 @@ class ContactStage {
   void set_interfaces(const std::vector<std::vector<double>>& values);
 
   /// Seeks the candidates anew when something may have moved through the skin since the last search.
-  /// `travelled` is how far the fastest corner can have moved since the last call, m. True when who is near
-  /// whom was found anew: at the same times whether a skin is used or not.
+  /// `travelled` is how far each of two corners can have come towards the other since the last call, m. True
+  /// when who is near whom was found anew: at the same times whether a skin is used or not.
   bool find_pairs(const Model& model, const MotionState& motion, double travelled);
 
   /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.

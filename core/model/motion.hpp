@@ -5,6 +5,7 @@
 
 #include <talus/contact_model.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace talus {
@@ -73,6 +74,9 @@ struct MotionState {
   struct Speeds {
     double largest = 0;   ///< m/s, of a corner; NaN if any is
     double relative = 0;  ///< m/s, bound of the difference between any two corners
+
+    /// m/s, bound of what each of two corners does to close a gap between them, in the frame that shares it.
+    double closing() const { return std::min(largest, relative / 2); }
   };
 
  private:

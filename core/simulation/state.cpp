@@ -102,7 +102,7 @@ void Simulation::State::forces() {
   const Vec2 pull = gravity();
   if (sleep && !settling) sleep->watch(time, pull, workers, sleeping_parts());
   profile.enter(Phase::neighbours);
-  if (contacts.find_pairs(model, motion, dt_behind * speeds.largest)) vote_again();  // Table 1, 1
+  if (contacts.find_pairs(model, motion, dt_behind * speeds.closing())) vote_again();  // Table 1, 1
   const bool may_sleep_now = may_sleep();
   observed = observed || may_sleep_now;
   profile.enter(Phase::contacts);
