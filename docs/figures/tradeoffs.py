@@ -129,7 +129,7 @@ def covers(studies):
     made = subprocess.run([sys.executable, "scenes/generate/mesh.py", "--size", "2", "1", "--divisions", "4", "2", "--corner",
                            "-8.005423651204648", "4.6219335", "--angle", "-30"], cwd=ROOT, capture_output=True, text=True, check=True)
     (ROOT / mesh).write_text(made.stdout, encoding="utf-8")
-    body = json.dumps({"name": "block", "material": "rock", "mesh": "../" + str(mesh)})
+    body = json.dumps({"name": "block", "material": "rock", "mesh": os.path.relpath(ROOT / mesh, ROOT / "scenes")})
     covers = [{"model": "rigid"}, {"model": "block"}, {"model": "mesh"}] + [{"model": "hexagonal", "size": s} for s in (0.4, 0.25)]
     study, folder = studies.study("covers", [
         "scenes/incline.json", "--vary", "/cover=" + ",".join(json.dumps(c, separators=(",", ":")) for c in covers),
