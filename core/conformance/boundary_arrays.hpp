@@ -50,14 +50,14 @@ struct BoundaryArrays {
     }
   }
 
-  /// As BodyPair::plain_corners wants it, for one body.
-  std::uint32_t plain_corners(std::uint32_t body) const {
-    if (body_piece[body + 1] != body_piece[body] + 1) return 0;
+  /// Surface class of a body that is plain as BodyPair says it; of others internal_side.
+  std::uint32_t plain_surface(std::uint32_t body) const {
+    if (body_piece[body + 1] != body_piece[body] + 1) return internal_side;
     const std::uint32_t begin = piece_start[body_piece[body]], end = piece_start[body_piece[body] + 1];
     for (std::uint32_t c = begin; c < end; ++c) {
-      if (corners[c].surface != corners[begin].surface || corners[c].surface == internal_side) return 0;
+      if (corners[c].surface != corners[begin].surface) return internal_side;
     }
-    return end - begin;
+    return corners[begin].surface;
   }
 
   Boundaries view() const {

@@ -131,8 +131,10 @@ GivenBatch DrivenLaw::given(double dt) {
     pair.piece_pair_end = static_cast<std::uint32_t>(piece_pairs.size());
     pair.offset_x = other.centre.x - one.centre.x, pair.offset_y = other.centre.y - one.centre.y;
     pair.master_share = master_share;
-    const std::uint32_t corners[] = {arrays.plain_corners(a), arrays.plain_corners(b)};
-    if (plain && corners[0] > 0 && corners[1] > 0) pair.plain_corners = std::max(corners[0], corners[1]);
+    const std::uint32_t surfaces[] = {arrays.plain_surface(a), arrays.plain_surface(b)};
+    if (plain && surfaces[0] != internal_side && surfaces[1] != internal_side)
+      describe_plain(pair, piece_pairs.back(), arrays.view(),
+                     batch.row[surfaces[0] * batch.surface_count + surfaces[1]]);
     pair.reduced_mass = one.mass * other.mass / (one.mass + other.mass);
     pair.slot_start = batch.slot_count, pair.slot_capacity = state.capacity;
     pair.contact_count = state.contacts;

@@ -23,6 +23,12 @@ constexpr double clear_share = 0.8;
 constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
 constexpr std::size_t body_chunk = 64;
 
+#ifdef TALUS_AUDIT
+constexpr bool audit = true;  // all loads are no numbers until the law has written them
+#else
+constexpr bool audit = false;
+#endif
+
 void noop(void* /*object*/) noexcept {}
 
 /// An eighth more than is wanted: doubling would take twice the memory, no more at all new memory at most
@@ -32,14 +38,15 @@ void make_room_in(std::vector<T>& values, std::size_t wanted) {
   if (wanted > values.capacity()) values.reserve(wanted + wanted / 8);
 }
 
-/// Corners of a body that is one convex piece of one surface class, else 0.
-std::uint32_t plain_corners(const Model& model, const Body& body) {
-  if (body.piece_end != body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) return 0;
+/// Whether laws may take it for one convex piece of one surface class all around.
+bool is_plain(const Model& model, const Body& body) {
+  if (body.piece_end != body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) return false;
+  if (body.corner_end - body.corner_begin > std::numeric_limits<std::uint16_t>::max()) return false;
   const std::uint32_t surface = model.surface[body.corner_begin];
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-    if (model.surface[c] != surface || surface == internal_side) return 0;
+    if (model.surface[c] != surface || surface == internal_side) return false;
   }
-  return body.corner_end - body.corner_begin;
+  return true;
 }
 
 }  // namespace
@@ -55,7 +62,10 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()) {
   for (const Body& body : model.bodies) {
     fixed_.push_back(body.kinematics == Kinematics::fixed);
-    plain_corners_.push_back(plain_corners(model, body));
+    plain_.push_back(is_plain(model, body) ? 1 : 0);
+    const bool one_piece = body.piece_end == body.piece_begin + 1 && model.is_strip[body.piece_begin] == 0;
+    corner_begin_.push_back(body.corner_begin);
+    corner_count_.push_back(one_piece ? body.corner_end - body.corner_begin : 0);
   }
   if (scene.contact.component == nullptr) return;
   const MotionState at_start(model);
@@ -144,12 +154,13 @@ void ContactStage::rebuild_pairs(const Model& model) {
                                       ? a.contact_mass
                                       : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
       const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
-      pairs_.push_back({candidate.body_a, candidate.body_b, first, first, b.centre.x - a.centre.x,
-                        b.centre.y - a.centre.y, master_share(candidate.body_a, candidate.body_b),
-                        reduced_mass, 0, 0, 0,
-                        plain_corners_[candidate.body_a] == 0 || plain_corners_[candidate.body_b] == 0
-                            ? 0
-                            : std::max(plain_corners_[candidate.body_a], plain_corners_[candidate.body_b])});
+      BodyPair pair{};
+      pair.a = candidate.body_a, pair.b = candidate.body_b;
+      pair.piece_pair_start = first;
+      pair.master_share = master_share(pair.a, pair.b);
+      pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
+      pair.reduced_mass = reduced_mass;
+      pairs_.push_back(pair);
     }
     piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
@@ -160,7 +171,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);
   capacities_.clear();
-  for (const BodyPair& pair : pairs_) capacities_.push_back(pair.plain_corners > 0 ? 1 : first_capacity);
+  for (const BodyPair& pair : pairs_) capacities_.push_back(pair.plain() ? 1 : first_capacity);
   std::size_t old = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const auto before = [&](const BodyPair& p) {
@@ -187,13 +198,25 @@ void ContactStage::make_room_for_loads(const Model& model) {
     loads += model.piece_start[pieces.b + 1] - model.piece_start[pieces.b];
   }
   for (std::vector<double>* values : {&load_x_, &load_y_}) {
-    values->resize(loads + guard_loads);
-    std::fill_n(values->begin() + loads, guard_loads, guard_load);
+    values->assign(loads, 0.0);  // where no pair touches they stay zero
+    values->resize(loads + guard_loads, guard_load);
   }
   pair_reports_.resize(pairs_.size());
   active_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
   sort_loads_by_body(model);
+  describe_plain_pairs(model);
+}
+
+void ContactStage::describe_plain_pairs(const Model& model) {
+  const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data()};
+  const auto surface = [&](std::uint32_t body) { return model.surface[model.bodies[body].corner_begin]; };
+  for (BodyPair& pair : pairs_) {
+    pair.plain_corners[0] = pair.plain_corners[1] = 0;
+    if (plain_[pair.a] == 0 || plain_[pair.b] == 0) continue;
+    describe_plain(pair, piece_pairs_[pair.piece_pair_start], boundaries,
+                   interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
+  }
 }
 
 /// Gives every pair its contact slots, one pair after the other, and moves its history there.
@@ -230,8 +253,8 @@ void ContactStage::sort_loads_by_body(const Model& model) {
       for (std::uint32_t p = pairs_[i].piece_pair_start; p < pairs_[i].piece_pair_end; ++p) {
         const PiecePair& pieces = piece_pairs_[p];
         const std::uint32_t corners_a = model.piece_start[pieces.a + 1] - model.piece_start[pieces.a];
-        if (fixed_[pairs_[i].a] == 0) take(pairs_[i].a, {pieces.load_start, i, pieces.a});
-        if (fixed_[pairs_[i].b] == 0) take(pairs_[i].b, {pieces.load_start + corners_a, i, pieces.b});
+        if (fixed_[pairs_[i].a] == 0) take(pairs_[i].a, {pieces.load_start, pieces.a});
+        if (fixed_[pairs_[i].b] == 0) take(pairs_[i].b, {pieces.load_start + corners_a, pieces.b});
       }
     }
   };
@@ -345,6 +368,7 @@ ContactTotals ContactStage::close_step() {
     for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
       const std::size_t i = begin + active_[begin + k];
       const PairReport& report = pair_reports_[i];
+      if (report.contact_count == 0 && (audit || pairs_[i].contact_count != 0)) clear_loads(pairs_[i]);
       pairs_[i].contact_count = report.contact_count;
       damping_power_[i] = report.damping_power;
       ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
@@ -363,26 +387,33 @@ ContactTotals ContactStage::close_step() {
   return totals;
 }
 
+/// So that bodies gather without asking who touches whom.
+void ContactStage::clear_loads(const BodyPair& pair) {
+  const std::uint32_t begin = piece_pairs_[pair.piece_pair_start].load_start;
+  const std::size_t next = pair.piece_pair_end;
+  const std::size_t end =
+      next < piece_pairs_.size() ? piece_pairs_[next].load_start : load_x_.size() - guard_loads;
+  for (std::vector<double>* values : {&load_x_, &load_y_})
+    std::fill(values->begin() + begin, values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+}
+
 /// f_c of Eq. 48: each body gathers the loads at its corners, pair after pair, whatever the threads did.
 void ContactStage::add_loads(const Model& model, MotionState& motion) {
-  const auto add = [&](std::uint32_t body) {
-    const kernels::PieceLoads* begin = body_loads_.data() + body_loads_start_[body];
-    const kernels::PieceLoads* end = body_loads_.data() + body_loads_start_[body + 1];
-    const Body& own = model.bodies[body];
-    if (own.piece_end == own.piece_begin + 1 && model.is_strip[own.piece_begin] == 0) {
-      kernels_.add_loads(own.corner_end - own.corner_begin, &model.reference_x[own.corner_begin],
-                         &model.reference_y[own.corner_begin], begin, end, pairs_.data(), load_x_.data(),
-                         load_y_.data(), motion.forces[body]);
-      return;
-    }
-    for (const kernels::PieceLoads* at = begin; at != end; ++at) {
-      if (pairs_[at->pair].contact_count > 0) add_piece_loads(model, *at, motion);
-    }
+  const kernels::GatheredLoads loads{corner_begin_.data(), corner_count_.data(), body_loads_start_.data(),
+                                     body_loads_.data(),   load_x_.data(),       load_y_.data()};
+  const auto one_piece = [&](std::size_t body) {
+    return corner_count_[body] != 0 && (island_.empty() || island_[body] == 0);
   };
   workers_.over(model.bodies.size(), body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t body = begin; body < end; ++body) {
+      const std::size_t first = body;
+      while (body < end && one_piece(body)) ++body;
+      kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(), motion.forces.data(),
+                         first, body);
+      if (body == end) break;
       if (!island_.empty() && island_[body] != 0) continue;
-      if (body_loads_start_[body] != body_loads_start_[body + 1]) add(static_cast<std::uint32_t>(body));
+      for (std::uint32_t at = body_loads_start_[body]; at != body_loads_start_[body + 1]; ++at)
+        add_piece_loads(model, body_loads_[at], motion);
     }
   });
 }

@@ -82,6 +82,7 @@ class ContactStage {
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
   void make_room_for_loads(const Model& model);
+  void describe_plain_pairs(const Model& model);
   bool fits(const Model& model) const;
   void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
@@ -94,6 +95,7 @@ class ContactStage {
   std::uint32_t choose_active(std::size_t begin, std::size_t end);
   ChunkTotals total(std::span<const std::uint32_t> active, std::size_t begin);
   ContactTotals close_step();
+  void clear_loads(const BodyPair& pair);
   void add_loads(const Model& model, MotionState& motion);
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
@@ -106,10 +108,12 @@ class ContactStage {
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
   std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
-  std::vector<double> priority_;              ///< [body], empty with symmetric roles
-  std::vector<char> fixed_;                   ///< [body]
-  std::vector<std::uint32_t> plain_corners_;  ///< [body] as BodyPair::plain_corners
-  std::vector<double> clear_depth_;           ///< [piece] as Boundaries::clear_depth
+  std::vector<double> priority_;             ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;                  ///< [body]
+  std::vector<std::uint32_t> corner_begin_;  ///< [body]
+  std::vector<std::uint32_t> corner_count_;  ///< [body] of one that is one convex piece; else 0
+  std::vector<char> plain_;                  ///< [body] as BodyPair says it
+  std::vector<double> clear_depth_;          ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
   double near_;        ///< m, up to which bodies are neighbours

@@ -37,6 +37,7 @@ bool ContactStage::fits(const Model& model) const {
   for (const BodyPair& pair : pairs_) {
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
         pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
+        (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1) ||
         pair.contact_count > pair.slot_capacity || std::size_t{pair.slot_start} + pair.slot_capacity > slots)
       return false;
   }

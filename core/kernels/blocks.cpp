@@ -151,33 +151,35 @@ void move_blocks(const Block* blocks, double dt, BodyMotion* motion, std::size_t
   }
 }
 
-/// Calls add(load) for the contacts that there are.
-template <class Add>
-inline void each_load(const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const Add& add) {
-  for (const PieceLoads* at = begin; at != end; ++at) {
-    if (pairs[at->pair].contact_count != 0) add(at->load);
-  }
-}
-
 /// Σ p and Σ q.
 inline Vec2 sums(const Quad& p, const Quad& q) {
   const Quad two = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
   return {two[0] + two[2], two[1] + two[3]};
 }
 
-void add_to_quadrilateral(const double* reference_x, const double* reference_y, const PieceLoads* begin,
-                          const PieceLoads* end, const BodyPair* pairs, const double* fx, const double* fy,
-                          BodyForce& force) {
-  Quad x{}, y{}, px, py;
-  each_load(begin, end, pairs, [&](std::uint32_t at) {
+/// Of a body with three or four corners.
+template <int count>
+inline void add_to_small(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
+                         std::size_t body, BodyForce& force) {
+  Quad x{}, y{}, px{}, py{};
+  for (std::uint32_t at = loads.start[body]; at != loads.start[body + 1]; ++at) {
+    const std::uint32_t from = loads.pieces[at].load;
     Quad more_x, more_y;
-    load(fx + at, more_x);
-    load(fy + at, more_y);
+    load(loads.fx + from, more_x);
+    load(loads.fy + from, more_y);
     x += more_x;
     y += more_y;
-  });
-  load(reference_x, px);
-  load(reference_y, py);
+  }
+  if constexpr (count == 4) {
+    load(reference_x, px);
+    load(reference_y, py);
+  } else {
+    // What came last belongs to the next piece.
+    x = __builtin_shufflevector(x, Quad{}, 0, 1, 2, 4);
+    y = __builtin_shufflevector(y, Quad{}, 0, 1, 2, 4);
+    for (int i = 0; i < 3; ++i) px[i] = reference_x[i];
+    for (int i = 0; i < 3; ++i) py[i] = reference_y[i];
+  }
   const Vec2 sum = sums(x, y), of_x = sums(x * px, x * py), of_y = sums(y * px, y * py);
   force.force.x += sum.x;
   force.force.y += sum.y;
@@ -187,19 +189,19 @@ void add_to_quadrilateral(const double* reference_x, const double* reference_y, 
   force.moment.yy += of_y.y;
 }
 
-void add_loads(std::uint32_t count, const double* reference_x, const double* reference_y,
-               const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const double* fx,
-               const double* fy, BodyForce& force) {
-  if (count == 4) return add_to_quadrilateral(reference_x, reference_y, begin, end, pairs, fx, fy, force);
+void add_to_any(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
+                std::size_t body, BodyForce& force) {
+  const std::uint32_t count = loads.corner_count[body];
   constexpr std::uint32_t most = 16;
   double sum_x[most], sum_y[most];
   for (std::uint32_t part = 0; part < count; part += most) {
     const std::uint32_t here = count - part < most ? count - part : most;
     for (std::uint32_t i = 0; i < here; ++i) sum_x[i] = sum_y[i] = 0;
-    each_load(begin, end, pairs, [&](std::uint32_t at) {
-      for (std::uint32_t i = 0; i < here; ++i) sum_x[i] += fx[at + part + i];
-      for (std::uint32_t i = 0; i < here; ++i) sum_y[i] += fy[at + part + i];
-    });
+    for (std::uint32_t at = loads.start[body]; at != loads.start[body + 1]; ++at) {
+      const std::uint32_t from = loads.pieces[at].load + part;
+      for (std::uint32_t i = 0; i < here; ++i) sum_x[i] += loads.fx[from + i];
+      for (std::uint32_t i = 0; i < here; ++i) sum_y[i] += loads.fy[from + i];
+    }
     for (std::uint32_t i = 0; i < here; ++i) {
       const double px = reference_x[part + i], py = reference_y[part + i];
       force.force.x += sum_x[i];
@@ -208,6 +210,23 @@ void add_loads(std::uint32_t count, const double* reference_x, const double* ref
       force.moment.xy += sum_x[i] * py;
       force.moment.yx += sum_y[i] * px;
       force.moment.yy += sum_y[i] * py;
+    }
+  }
+}
+
+void add_loads(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
+               BodyForce* forces, std::size_t begin, std::size_t end) {
+  for (std::size_t body = begin; body < end; ++body) {
+    const double *x = reference_x + loads.corner_begin[body], *y = reference_y + loads.corner_begin[body];
+    switch (loads.corner_count[body]) {
+      case 3:
+        add_to_small<3>(x, y, loads, body, forces[body]);
+        break;
+      case 4:
+        add_to_small<4>(x, y, loads, body, forces[body]);
+        break;
+      default:
+        add_to_any(x, y, loads, body, forces[body]);
     }
   }
 }

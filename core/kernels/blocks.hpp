@@ -30,9 +30,17 @@ struct SpeedExtremes {
 
 /// Loads of one pair on the corners of a piece.
 struct PieceLoads {
-  std::uint32_t load;  ///< index of the first
-  std::uint32_t pair;  ///< whose contact_count tells whether there are any
+  std::uint32_t load;  ///< index of the first; zeros where the pair does not touch
   std::uint32_t piece;
+};
+
+/// The loads of all contacts, to be gathered by bodies.
+struct GatheredLoads {
+  const std::uint32_t* corner_begin;  ///< [body]
+  const std::uint32_t* corner_count;  ///< [body]
+  const std::uint32_t* start;         ///< [body + 1] in `pieces`
+  const PieceLoads* pieces;           ///< body after body
+  const double *fx, *fy;              ///< N/m; one more may be read than there are
 };
 
 /// How velocities are updated: v₊ = keep v₋ + gain (f/m + g); see StepConditions.
@@ -59,11 +67,9 @@ struct BlockKernels {
                  SpeedExtremes& speeds);
   /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
   void (*move)(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end);
-  /// Adds the loads on the `count` corners of a body that is one convex piece, contact after contact
-  /// (Eqs. 46–48).
-  void (*add_loads)(std::uint32_t count, const double* reference_x, const double* reference_y,
-                    const PieceLoads* begin, const PieceLoads* end, const BodyPair* pairs, const double* fx,
-                    const double* fy, BodyForce& force);
+  /// Adds up the loads on bodies [begin, end) that are one convex piece, contact after contact (Eqs. 46–48).
+  void (*add_loads)(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
+                    BodyForce* forces, std::size_t begin, std::size_t end);
   /// Eqs. 23–24 for the free bodies of [begin, end). `middle` gets the velocities at t_n, unless null.
   void (*accelerate)(const Block* blocks, const BodyForce* forces, const BlockUpdate& update,
                      BodyMotion* motion, BodyMotion* middle, std::size_t begin, std::size_t end,

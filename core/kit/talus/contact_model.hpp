@@ -54,17 +54,25 @@ struct BodyPair {
   std::uint32_t b;
   std::uint32_t piece_pair_start;  ///< its piece pairs are [piece_pair_start, piece_pair_end)
   std::uint32_t piece_pair_end;
+  double master_share;  ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
   double offset_x;      ///< m, added to a position of body b gives it in the frame of body a
   double offset_y;      ///< m
-  double master_share;  ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
   double reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
                         ///< fixed; a body of many elements counts by a patch of its boundary
+  double clear_depth;   ///< m, of plain bodies: the lesser of Boundaries::clear_depth
   std::uint32_t slot_start;     ///< first contact slot of this pair
   std::uint32_t slot_capacity;  ///< how many contacts it can hold
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
-  std::uint32_t plain_corners;  ///< corners of the larger piece where both bodies are one convex piece of one
-                                ///< surface class all around; else 0
+  std::uint16_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
+                                   ///< surface class all around; else 0, and what follows says nothing
+
+  // What laws look up for every pair of plain bodies, from the arrays that hold it for all.
+  std::uint32_t corner_start[2];  ///< first corner of a and of b in Boundaries::corner
+  std::uint32_t load_start;       ///< PiecePair::load_start of their pieces
+  std::uint32_t interface_row;    ///< Interfaces::row of their surfaces
+
+  bool plain() const { return plain_corners[0] != 0; }
 };
 
 /// What a law is given: a range of pairs at time t_n. Host memory, read-only.
@@ -80,6 +88,21 @@ struct ContactBatch {
   bool hold_stick;  ///< settling: friction is held stuck, no slip limit applies
   bool bonds_form;  ///< first evaluation and settling: contacts found now are born intact
 };
+
+/// Says of a pair of plain bodies what BodyPair repeats. Both have one piece, of at most 65,535 corners.
+inline void describe_plain(BodyPair& pair, const PiecePair& pieces, const Boundaries& boundaries,
+                           std::uint32_t interface_row) {
+  const std::uint32_t piece[2] = {pieces.a, pieces.b};
+  for (int i = 0; i < 2; ++i) {
+    const std::uint32_t start = boundaries.piece_start[piece[i]];
+    pair.corner_start[i] = start;
+    pair.plain_corners[i] = static_cast<std::uint16_t>(boundaries.piece_start[piece[i] + 1] - start);
+  }
+  pair.load_start = pieces.load_start;
+  pair.interface_row = interface_row;
+  const double depth_a = boundaries.clear_depth[pieces.a], depth_b = boundaries.clear_depth[pieces.b];
+  pair.clear_depth = depth_a < depth_b ? depth_a : depth_b;
+}
 
 /// One contact, for pictures and diagnosis. In the frame of the pair.
 struct ContactReport {

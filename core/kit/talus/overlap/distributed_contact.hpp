@@ -40,18 +40,20 @@ class DistributedContact {
     const auto one_by_one = [&](std::uint32_t i) {
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
     };
-    quadrilaterals_.clear();
-    octagons_.clear();
+    quadrilaterals_.clear(batch.active_count);
+    octagons_.clear(batch.active_count);
+    const bool fit = fits_lanes(law);
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       const BodyPair& pair = batch.pairs[i];
-      const bool plain = pair.plain_corners != 0 && pair.contact_count <= 1 && fits_lanes(law);
-      if (plain && pair.plain_corners <= 4) {
-        quadrilaterals_.add(batch, i);
-      } else if (plain && pair.plain_corners <= 8) {
-        octagons_.add(batch, i);
-      } else {
+      // Of bodies that are not plain this is larger than any number of corners.
+      const std::uint32_t last_corner = (pair.plain_corners[0] - 1U) | (pair.plain_corners[1] - 1U);
+      if (last_corner >= 8 || pair.contact_count > 1 || !fit) {
         one_by_one(i);
+      } else if (last_corner < 4) {
+        quadrilaterals_.add(batch, i);
+      } else {
+        octagons_.add(batch, i);
       }
     }
     quadrilaterals_.evaluate(law, batch, loads, one_by_one);

@@ -10,20 +10,34 @@ inline namespace TALUS_SIMD_LEVEL {
 
 /// A stretch of one slave side in the cell of one master side (Fig. 5).
 struct LaneSegment {
-  int master_side, slave_side;
+  LaneCorner* slave;  ///< where the side starts
   Mask valid;
   Pack start, end;              ///< along the slave side, 0 to 1
   Pack start_lever, end_lever;  ///< along the master side, 0 to 1
   Pack start_load, end_load;    ///< N/m, trapezoid load as two end loads
   Pack length, share;           ///< m; m², its part of the area below it
+
+  /// Part of a unit tangential force on piece 1, as forces on the ends of the slave side: along the tangent,
+  /// and a couple, outwards at the start, inwards at the end.
+  Pack shear_start, shear_end, couple;
 };
 
 /// The cell of one master side.
 struct LaneCell {
-  int side;
-  Pack load;   ///< N/m, normal
-  Pack lever;  ///< where on the side, 0 to 1
-  Pack share;  ///< m², sum over its segments
+  LaneCorner* master;        ///< where the side starts
+  LaneSegment *begin, *end;  ///< its segments
+  Pack load;                 ///< N/m, normal
+  Pack lever;                ///< where on the side, 0 to 1
+  Pack share;                ///< m², sum over its segments
+  Pack shear;                ///< part of a unit tangential force on piece 1, on the slave
+};
+
+/// A range that a loop may go through.
+template <class T>
+struct LaneRange {
+  T *first, *last;
+  T* begin() const { return first; }
+  T* end() const { return last; }
 };
 
 /// Cells of one piece as master, the other as slave (§3.2.1), in closed form by Green's theorem. With s along
@@ -36,53 +50,59 @@ struct LaneCell {
 template <int corners>
 class LaneCells {
  public:
-  LaneCell cell[corners];
-  int cell_count;
-  LaneSegment segment[corners * corners];  ///< cell after cell
-  int segment_start[corners + 1];          ///< [cell]
   Mask deep;
   Pack stored, penetration;       ///< J/m, m
   Pack area, moment_x, moment_y;  ///< m², m³: of the overlap, first moments
   Packs2 arc;                     ///< m, sum of the segments along the slave
+  Pack arc_length;                ///< m
   Packs2 force;                   ///< N/m on the slave
+  Pack pattern;                   ///< which sides meet, 4 · master side + slave side (of four) as bits
 
-  /// `full`: all lanes have all `corners`.
-  template <bool full>
-  void find(const LanePiece<corners>& master, const LanePiece<corners>& slave, Pack stiffness) {
+  LaneRange<LaneCell> cells() { return {cell_, cell_ + cell_count_}; }
+  LaneRange<const LaneCell> cells() const { return {cell_, cell_ + cell_count_}; }
+
+  /// Finds the cells and loads both pieces with their pressure; either all lanes are mixed or none.
+  template <int master_sides, int slave_sides>
+  void find(LanePiece<corners>& master, LanePiece<corners>& slave, Pack stiffness, Pack clear_depth) {
     deep = simd::nowhere();
-    stored = penetration = area = moment_x = moment_y = 0.0;
+    stored = penetration = area = moment_x = moment_y = arc_length = pattern = 0.0;
     arc = force = {0.0, 0.0};
-    cell_count = segment_count_ = 0;
-    measure(master, slave);
-#pragma GCC unroll 4
-    for (int k = 0; k < corners; ++k) {
-      CornerBits meetings = possible_meetings(k);
-      if constexpr (!full) meetings &= each_corner(master.real[k]) & in_turn(slave.real);
+    cell_count_ = 0;
+    next_segment_ = segment_;
+    constexpr int sides = corners_of(master_sides, corners), others = corners_of(slave_sides, corners);
+    measure<sides, others>(master, slave, clear_depth);
+#pragma GCC unroll 1  // a cut is long enough
+    for (int k = 0; k < sides; ++k) {
+      if (!clear_[k]) continue;
+      CornerBits meetings = possible_meetings<others>(k);
+      if constexpr (master_sides == mixed) meetings &= each_corner(master.real[k]) & in_turn(slave.real);
       if (meetings == 0) continue;
       Integrals sum{0.0, 0.0, 0.0};
-      segment_start[cell_count] = segment_count_;
-      cell[cell_count].side = k;
-      cell[cell_count].share = 0.0;
+      LaneCell& cell = cell_[cell_count_];
+      cell.master = &master.corner[k];
+      cell.begin = next_segment_;
+      cell.share = 0.0;
+      const Pack inverse_length = 1.0 / cell.master->length;
       while (meetings != 0) {
-        const int j = std::countr_zero(meetings) / lanes;
-        const CornerBits here = meetings & (all_lanes << j * lanes);
-        meetings ^= here;
-        cut_out(master, slave, k, j, simd::mask_of(static_cast<unsigned>(here >> j * lanes)), stiffness, sum);
+        const int j = std::countr_zero(meetings) / lanes, shift = j * lanes;
+        const CornerBits here = meetings >> shift & all_lanes;
+        meetings ^= here << shift;
+        const Mask possible = simd::mask_of(static_cast<unsigned>(here));
+        cut_out(cell, slave, k, j, possible, clear_depth, inverse_length, stiffness, sum);
       }
-      if (segment_count_ > segment_start[cell_count]) close_cell(master, stiffness, sum);
+      cell.end = next_segment_;
+      if (cell.end != cell.begin) close_cell(cell, inverse_length, clear_depth, stiffness, sum);
     }
-    segment_start[cell_count] = segment_count_;
   }
 
  private:
   /// What holds of corners of the slave or of the sides that start there: bit j · lanes + lane.
   using CornerBits = std::uint64_t;
   static constexpr CornerBits all_lanes = (1u << lanes) - 1;
-  static constexpr int width = corners * lanes;
 
   static CornerBits each_corner(unsigned bits) {
     CornerBits all = bits;
-    for (int shift = lanes; shift < width; shift *= 2) all |= all << shift;
+    for (int shift = lanes; shift < corners * lanes; shift *= 2) all |= all << shift;
     return all;
   }
   static CornerBits in_turn(const unsigned (&bits)[corners]) {
@@ -90,10 +110,15 @@ class LaneCells {
     for (int j = 0; j < corners; ++j) all |= CornerBits{bits[j]} << j * lanes;
     return all;
   }
-  /// What holds of the next corner.
+  /// What holds of the next corner of `count`.
+  template <int count>
   static CornerBits of_next(CornerBits corner) {
-    return corner >> lanes | (corner & all_lanes) << (width - lanes);
+    return corner >> lanes | (corner & all_lanes) << (count * lanes - lanes);
   }
+
+  /// [4 · master side + slave side] what it adds to `pattern`.
+  static constexpr double side_bit[16] = {0x1p0, 0x1p1, 0x1p2,  0x1p3,  0x1p4,  0x1p5,  0x1p6,  0x1p7,
+                                          0x1p8, 0x1p9, 0x1p10, 0x1p11, 0x1p12, 0x1p13, 0x1p14, 0x1p15};
 
   struct Integrals {
     Pack area, along, depth;  ///< −∫ 1, s, d dA
@@ -101,33 +126,41 @@ class LaneCells {
 
   /// Depths of the slave's corners behind the master's sides, and their heights over the line of division at
   /// each master corner, positive on the side of the side that starts there.
-  void measure(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
-    for (int k = 0; k < corners; ++k) {
-      const Packs2 along = (k == 0 ? master.last_tangent : master.tangent[k - 1]) + master.tangent[k];
+  template <int sides, int others>
+  void measure(const LanePiece<corners>& master, const LanePiece<corners>& slave, Pack clear_depth) {
+    for (int k = 0; k < sides; ++k) {
+      const LaneCorner& at = master.corner[k];
+      const Packs2 along = (k == 0 ? master.last_tangent : master.corner[k - 1].tangent) + at.tangent;
       behind_[k] = right_[k] = 0;
-      for (int j = 0; j < corners; ++j) {
-        const Packs2 from = slave.at[j] - master.at[k];
-        depth_[k][j] = simd::cross(master.tangent[k], from);
+      Pack least = clear_depth;
+      for (int j = 0; j < others; ++j) {
+        const Packs2 from = slave.corner[j].at - at.at;
+        depth_[k][j] = simd::cross(at.tangent, from);
         height_[k][j] = simd::dot(along, from);
+        least = simd::min(least, depth_[k][j]);
         behind_[k] |= CornerBits{simd::bits(depth_[k][j] > 0.0)} << j * lanes;
         right_[k] |= CornerBits{simd::bits(height_[k][j] >= 0.0)} << j * lanes;
       }
-      depth_[k][corners] = depth_[k][0];
-      height_[k][corners] = height_[k][0];
+      clear_[k] = simd::any(least < clear_depth);
+      depth_[k][others] = depth_[k][0];
+      height_[k][others] = height_[k][0];
     }
-    for (int j = 0; j <= corners; ++j) height_[corners][j] = height_[0][j];
-    right_[corners] = right_[0];
+    for (int j = 0; j <= others; ++j) height_[sides][j] = height_[0][j];
+    right_[sides] = right_[0];
   }
 
   /// Slave sides that may reach into the cell of a master side: not all before it, not all on one side.
+  template <int others>
   CornerBits possible_meetings(int k) const {
-    return (behind_[k] | of_next(behind_[k])) & (right_[k] | of_next(right_[k])) &
-           ~(right_[k + 1] & of_next(right_[k + 1]));
+    return (behind_[k] | of_next<others>(behind_[k])) & (right_[k] | of_next<others>(right_[k])) &
+           ~(right_[k + 1] & of_next<others>(right_[k + 1]));
   }
 
   /// The part of a slave side in a cell, by its parameters (Liang–Barsky).
-  void cut_out(const LanePiece<corners>& master, const LanePiece<corners>& slave, int k, int j, Mask possible,
-               Pack stiffness, Integrals& sum) {
+  [[gnu::always_inline]] void cut_out(LaneCell& cell, LanePiece<corners>& slave, int k, int j, Mask possible,
+                                      Pack clear_depth, Pack inverse_length, Pack stiffness, Integrals& sum) {
+    const LaneCorner& master = *cell.master;
+    LaneCorner& side = slave.corner[j];
     const Pack first = depth_[k][j], last = depth_[k][j + 1];
     const Pack left = height_[k][j], left_last = height_[k][j + 1];
     const Pack right = height_[k + 1][j], right_last = height_[k + 1][j + 1];
@@ -146,22 +179,21 @@ class LaneCells {
 
     // Elsewhere the parameters may be no numbers at all.
     Mask valid = possible & (t0 <= t1);
+    if (!simd::any(valid)) return;
     t0 = simd::only_where(valid, t0);
     t1 = simd::only_where(valid, t1);
 
-    const Packs2 from = slave.at[j] - master.at[k], span = slave.at[j + 1] - slave.at[j];
-    const Pack start_along = simd::dot(master.tangent[k], from),
-               span_along = simd::dot(master.tangent[k], span);
+    const Packs2 from = side.at - master.at, span = (&side)[1].at - side.at;
+    const Pack start_along = simd::dot(master.tangent, from), span_along = simd::dot(master.tangent, span);
     const Pack d0 = simd::max(0.0, first + t0 * (last - first)),
                d1 = simd::max(0.0, first + t1 * (last - first));
     const Pack s0 = start_along + t0 * span_along, s1 = start_along + t1 * span_along;
 
-    const Mask clear0 = d0 <= master.clear_depth, clear1 = d1 <= master.clear_depth;
+    const Mask clear0 = d0 <= clear_depth, clear1 = d1 <= clear_depth;
     deep = deep | (valid & ((clear0 & !clear1) | (clear1 & !clear0)));
     valid = valid & clear0;
-    if (!simd::any(valid)) return;
 
-    const Pack l = master.length[k], run = s1 - s0;
+    const Pack l = master.length, run = s1 - s0;
     // Distance along the side from the end that the line of division goes through; zero where there is none.
     const Pack in = simd::select(enters_right, s0 - l, simd::select(enters_left, s0, 0.0)),
                out = simd::select(leaves_right, s1 - l, simd::select(leaves_left, s1, 0.0));
@@ -176,44 +208,65 @@ class LaneCells {
     sum.depth = sum.depth + simd::only_where(valid, run * sixth * (d0 * d0 + d0 * d1 + d1 * d1) +
                                                         in_area * d0 * third - out_area * d1 * third);
 
-    LaneSegment& at = segment[segment_count_++];
-    at.master_side = k;
-    at.slave_side = j;
+    LaneSegment& at = *next_segment_++;
+    at.slave = &side;
     at.valid = valid;
     at.start = t0;
     at.end = t1;
-    at.start_lever = s0 * master.inverse_length[k];
-    at.end_lever = s1 * master.inverse_length[k];
-    at.length = simd::only_where(valid, (t1 - t0) * slave.length[j]);
+    at.start_lever = s0 * inverse_length;
+    at.end_lever = s1 * inverse_length;
+    at.length = simd::only_where(valid, (t1 - t0) * side.length);
     at.share = at.length * (d0 + d1) * 0.5;
     const Pack scale = stiffness * at.length * sixth;
     at.start_load = scale * (d0 + d0 + d1);
     at.end_load = scale * (d1 + d1 + d0);
-    cell[cell_count].share = cell[cell_count].share + at.share;
+    load_slave(side, at);
+    cell.share = cell.share + at.share;
     arc = arc + simd::only_where(valid, t1 - t0) * span;
+    arc_length = arc_length + at.length;
     penetration = simd::max(penetration, simd::only_where(valid, simd::max(d0, d1)));
+    pattern = pattern + simd::only_where(valid, side_bit[k % 4 * 4 + j % 4]);
   }
 
-  void close_cell(const LanePiece<corners>& master, Pack stiffness, const Integrals& sum) {
-    LaneCell& now = cell[cell_count++];
-    const int k = now.side;
+  /// Eqs. 30–36: by the trapezoid rule.
+  static void load_slave(LaneCorner& side, const LaneSegment& at) {
+    const Packs2 inward = Pack(-1.0) * side.normal();
+    const Pack end = at.start_load * at.start + at.end_load * at.end;
+    side.push(at.start_load + at.end_load - end, inward);
+    (&side)[1].push(end, inward);
+  }
+
+  /// Eqs. 28–29: on the master through the centroid of the cell.
+  [[gnu::always_inline]] void close_cell(LaneCell& now, Pack inverse_length, Pack clear_depth, Pack stiffness,
+                                         const Integrals& sum) {
+    ++cell_count_;
+    LaneCorner& side = *now.master;
     const Pack size = -sum.area;
     const Mask some = size > 0.0;
-    deep = deep | (size < -1e-12 * master.length[k] * master.clear_depth);
+    deep = deep | (size < -1e-12 * side.length * clear_depth);
     const Pack along = simd::only_where(some, -sum.along), depth = simd::only_where(some, -sum.depth);
     now.load = simd::only_where(some, stiffness * size);
-    now.lever = simd::only_where(some, -sum.along / (size * master.length[k]));
+    now.lever = simd::only_where(some, -sum.along / size * inverse_length);
     stored = stored + stiffness * depth;
     area = area + simd::only_where(some, size);
-    const Packs2 t = master.tangent[k];  // inwards is (−t.y, t.x)
-    moment_x = moment_x + simd::only_where(some, size) * master.at[k].x + along * t.x - depth * t.y;
-    moment_y = moment_y + simd::only_where(some, size) * master.at[k].y + along * t.y + depth * t.x;
-    force = force + now.load * master.normal(k);
+    const Packs2 t = side.tangent;  // inwards is (−t.y, t.x)
+    moment_x = moment_x + simd::only_where(some, size) * side.at.x + along * t.x - depth * t.y;
+    moment_y = moment_y + simd::only_where(some, size) * side.at.y + along * t.y + depth * t.x;
+    const Packs2 outward = side.normal();
+    const Packs2 push = now.load * outward;
+    const Packs2 at_end = now.lever * push;
+    force = force + push;
+    side.load = side.load - (push - at_end);
+    (&side)[1].load = (&side)[1].load - at_end;
   }
 
   Pack depth_[corners][corners + 1], height_[corners + 1][corners + 1];
   CornerBits behind_[corners], right_[corners + 1];
-  int segment_count_ = 0;
+  bool clear_[corners];  ///< whether any corner of a slave is less deep than clear_depth behind the side
+  LaneCell cell_[corners];
+  LaneSegment segment_[corners * corners];  ///< cell after cell
+  int cell_count_ = 0;
+  LaneSegment* next_segment_ = segment_;
 };
 
 }  // namespace TALUS_SIMD_LEVEL

@@ -20,6 +20,7 @@ struct TouchingPair {
   static constexpr double pattern_unit = 64;
   /// Added to a code of an earlier step: nobody has looked whether the pieces overlap.
   static constexpr std::uint32_t unseen_bit = 1u << 31;
+  static constexpr std::uint32_t shape_unit = 1u << 24;
 
   static TouchingPair remembered(std::uint32_t pair, double code) {
     return {pair, static_cast<std::uint32_t>(code) | unseen_bit};
@@ -27,89 +28,102 @@ struct TouchingPair {
   static TouchingPair seen(std::uint32_t pair, std::uint32_t start_a, std::uint32_t start_b) {
     return {pair, 1 + start_a + 8 * start_b};
   }
-  std::uint32_t start(int body) const { return (code - 1) >> (3 * body) & 7; }
-  std::uint32_t starts() const { return ((code - 1) & 63) + 1; }
-  std::uint32_t pattern() const { return ((code - 1) & ~unseen_bit) >> 6; }
+  std::uint32_t pattern() const { return ((code - 1) & ~unseen_bit & ~(3 * shape_unit)) >> 6; }
+  /// 0 to 3: those of like shapes share a group.
+  std::uint32_t shape() const { return code / shape_unit & 3; }
   bool unseen() const { return code >= unseen_bit; }
 };
-
-inline constexpr double no_history[8] = {0, 0, 0, 0, 0, 0, 0, 0};
 
 /// The pairs of a group, a lane each, as the host's arrays know them. Piece 0 is the master, where only one
 /// is.
 struct LaneGroup {
+  const TouchingPair* touching;  ///< [lanes]; those from `count` on are there to fill the lanes
   int count;
-  std::uint32_t pair[lanes];
-  bool swapped[lanes];  ///< piece 0 is that of body b
+  LanePairs pairs;
+  Numbers swapped;  ///< not 0 where piece 0 is that of body b
   LanePieces pieces[2];
+  Pack reduced_mass, clear_depth;
   Pack normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping;
-  alignas(64) double reduced_mass[lanes], side[lanes], starts[lanes];
-  const double* history[lanes];  ///< of the previous step, or zeros
-  std::uint32_t slot[lanes], load_start[lanes];
+  Pack starts;      ///< code without pattern, as TouchingPair::remembered() reads it
+  Mask remembered;  ///< in contact a step ago
 
-  /// Fills the lanes from `touching`; those beyond `count` repeat the first.
+  std::uint32_t pair(int lane) const { return touching[lane].pair; }
+  /// Where the history of a lane is, in that of all.
+  std::size_t kept(int lane) const { return std::size_t{pairs.at[lane]->slot_start} * friction_doubles; }
+
   template <class Law>
-  void collect(const Law& law, const ContactBatch& batch, const TouchingPair* touching, int touching_count) {
-    count = touching_count;
-    std::uint32_t row[lanes];
-    bool alike = true;
+  void collect(const Law& law, const ContactBatch& batch, const TouchingPair* group, int group_count) {
+    touching = group;
+    count = group_count;
+    const double* place[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
-      const TouchingPair& touch = touching[lane < count ? lane : 0];
-      const BodyPair& at = batch.pairs[touch.pair];
-      const PiecePair& piece = batch.piece_pairs[at.piece_pair_start];
-      pair[lane] = touch.pair;
-      swapped[lane] = at.master_share == 0;
-      side[lane] = swapped[lane] ? -1 : 1;
-      const int a = swapped[lane] ? 1 : 0;
-      pieces[a].set(lane, batch.boundaries, piece.a, 0, 0, touch.start(0));
-      pieces[1 - a].set(lane, batch.boundaries, piece.b, at.offset_x, at.offset_y, touch.start(1));
-      reduced_mass[lane] = at.reduced_mass;
-      starts[lane] = touch.starts();
-      slot[lane] = at.slot_start;
-      load_start[lane] = piece.load_start;
-      if constexpr (Law::frictional)
-        history[lane] = at.contact_count == 0 ? no_history : batch.history + at.slot_start * friction_doubles;
-      row[lane] = batch.interfaces.row[pieces[a].first[lane]->surface * batch.interfaces.surface_count +
-                                       pieces[1 - a].first[lane]->surface];
-      alike = alike && row[lane] == row[0];
+      pairs.at[lane] = batch.pairs + pair(lane);
+      place[lane] = &pairs.at[lane]->offset_x;
     }
-    read_parameters(law, batch.interfaces, row, alike);
+    remembered = simd::nonzero(pairs.contact_count());
+
+    Numbers code;
+    std::memcpy(&code, touching, sizeof code);
+    code = (code >> 32) - 1;
+    starts = simd::as_pack((code & 63) + 1);
+    const LanePairs::FirstCorners first = pairs.first_corners();
+    swapped = pairs.read(offsetof(BodyPair, master_share)) == 0 ? ~Numbers{} : Numbers{};
+    const auto swap = [&](const Numbers& p, const Numbers& q) { return (p & ~swapped) | (q & swapped); };
+    const Numbers start_a = (code & 7) * sizeof(BoundaryCorner),
+                  start_b = (code >> 3 & 7) * sizeof(BoundaryCorner);
+    pieces[0].first = swap(first.a, first.b);
+    pieces[1].first = swap(first.b, first.a);
+    pieces[0].start = swap(start_a, start_b);
+    pieces[1].start = swap(start_b, start_a);
+    const LanePairs::CornerCounts counts = pairs.corner_counts();
+    pieces[0].count = swap(counts.a, counts.b);
+    pieces[1].count = swap(counts.b, counts.a);
+    pieces[0].corner = pieces[1].corner = batch.boundaries.corner;
+
+    Pack placed[4];
+    simd::gather_rows(place, placed);
+    const Mask of_b = simd::nonzero(swapped);
+    const Packs2 offset{placed[0], placed[1]}, none{0.0, 0.0};
+    pieces[0].offset = simd::select(of_b, offset, none);
+    pieces[1].offset = simd::select(of_b, none, offset);
+    reduced_mass = placed[2];
+    clear_depth = placed[3];
+    read_parameters(law, batch.interfaces);
+  }
+
+  /// 0: piece p of a lane is that of body a, 1: of b.
+  int body(int p, int lane) const { return swapped[lane] != 0 ? 1 - p : p; }
+  /// Of a pair of bodies that are one piece each, the first has its loads before those of the second.
+  std::uint32_t load_start(int p, int lane) const {
+    const BodyPair& pair_here = *pairs.at[lane];
+    return pair_here.load_start + (body(p, lane) == 0 ? 0U : pair_here.plain_corners[0]);
   }
 
   /// Loads of the lanes on their corners, from those on both pieces.
-  template <int corners, bool full>
-  void write_loads(const ContactLoads& loads, unsigned refused, const Packs2 (&load)[2][corners + 1]) const {
-    double *x[2][lanes], *y[2][lanes];  // by piece
-    for (int lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t begin = load_start[lane];
-      const int a = swapped[lane] ? 1 : 0;
-      x[a][lane] = loads.fx + begin;
-      y[a][lane] = loads.fy + begin;
-      // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
-      const std::uint32_t first = full ? corners : pieces[a].corners_in[lane];
-      x[1 - a][lane] = x[a][lane] + first;
-      y[1 - a][lane] = y[a][lane] + first;
-    }
-    const bool all = refused == 0 && count == lanes;
-    for (int p = 0; p < 2; ++p) {
-      if constexpr (full && corners == 4) {
-        if (all) {
-          write_quadrilaterals(pieces[p], load[p], x[p], y[p]);
-          continue;
-        }
+  template <int corners, int sides, int other_sides>
+  void write_loads(const ContactLoads& loads, unsigned refused, const LanePiece<corners>* piece) const {
+    if constexpr (sides != mixed) {
+      if (refused == 0 && count == lanes) {
+        write_rows<sides>(loads, 0, piece[0].corner);
+        write_rows<other_sides>(loads, 1, piece[1].corner);
+        return;
       }
-      write_any<corners>(pieces[p], refused, load[p], x[p], y[p]);
     }
+    write_any<corners_of(sides, corners)>(loads, 0, refused, piece[0].corner);
+    write_any<corners_of(other_sides, corners)>(loads, 1, refused, piece[1].corner);
   }
 
  private:
   template <class Law>
-  void read_parameters(const Law& law, const Interfaces& interfaces, const std::uint32_t* row, bool alike) {
+  void read_parameters(const Law& law, const Interfaces& interfaces) {
     alignas(64) double value[5][lanes];
+    std::uint32_t other_row = 0;
+    for (const BodyPair* at : pairs.at) other_row |= at->interface_row ^ pairs.at[0]->interface_row;
+    const bool alike = other_row == 0;
     const int different = alike ? 1 : lanes;
     for (int lane = 0; lane < different; ++lane) {
       const InterfaceParameters parameters =
-          law.interface(interfaces.value + row[lane] * interfaces.parameter_count);
+          law.interface(interfaces.value + pairs.at[lane]->interface_row * interfaces.parameter_count);
       value[0][lane] = parameters.normal_stiffness;
       value[1][lane] = parameters.tangential_stiffness;
       value[2][lane] = parameters.friction;
@@ -124,46 +138,46 @@ struct LaneGroup {
     tangential_damping = read(4);
   }
 
-  /// All lanes have four corners: counts them from the host's first again, in two turns.
-  static void write_quadrilaterals(const LanePieces& piece, const Packs2* load, double* const* x,
-                                   double* const* y) {
-    unsigned by_one = 0, by_two = 0;
+  /// All lanes are there and have three or four corners.
+  template <int sides>
+  void write_rows(const ContactLoads& loads, int p, const LaneCorner* corner) const {
+    double *x[lanes], *y[lanes];
+    const Numbers after = p == 0 ? swapped : ~swapped;
+    const Numbers begin =
+        (pairs.read(offsetof(BodyPair, load_start)) & 0xFFFFFFFF) + (after & pieces[1 - p].count);
     for (int lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t start = piece.start_in[lane];
-      by_one |= (start & 1) << lane;
-      by_two |= (start >> 1) << lane;
+      x[lane] = loads.fx + begin[lane];
+      y[lane] = loads.fy + begin[lane];
     }
-    const Mask one = simd::mask_of(by_one), two = simd::mask_of(by_two);
-    Packs2 turned[4], back[4];
-    for (int i = 0; i < 4; ++i) turned[i] = simd::select(one, load[(i + 3) % 4], load[i]);
-    for (int i = 0; i < 4; ++i) back[i] = simd::select(two, turned[(i + 2) % 4], turned[i]);
-    const Pack back_x[4] = {back[0].x, back[1].x, back[2].x, back[3].x},
-               back_y[4] = {back[0].y, back[1].y, back[2].y, back[3].y};
-    simd::scatter_rows(back_x, x);
-    simd::scatter_rows(back_y, y);
+    const Numbers start = pieces[p].start_corner();
+    const Pack load_x[4] = {corner[0].load.x, corner[1].load.x, corner[2].load.x, corner[3].load.x},
+               load_y[4] = {corner[0].load.y, corner[1].load.y, corner[2].load.y, corner[3].load.y};
+    simd::scatter_turned_rows<sides>(load_x, start, x);
+    simd::scatter_turned_rows<sides>(load_y, start, y);
   }
 
   /// Load that came to the repeated first corner of a piece with fewer corners goes to that corner.
   template <int corners>
-  void write_any(const LanePieces& piece, unsigned refused, const Packs2* load, double* const* to_x,
-                 double* const* to_y) const {
+  void write_any(const ContactLoads& loads, int p, unsigned refused, const LaneCorner* from) const {
     alignas(64) double x[corners][lanes], y[corners][lanes];
     for (int i = 0; i < corners; ++i) {
-      simd::store(load[i].x, x[i]);
-      simd::store(load[i].y, y[i]);
+      simd::store(from[i].load.x, x[i]);
+      simd::store(from[i].load.y, y[i]);
     }
+    const Numbers start = pieces[p].start_corner();
     for (int lane = 0; lane < count; ++lane) {
       if ((refused >> lane & 1) != 0) continue;
-      const auto size = static_cast<int>(piece.corners_in[lane]);
+      const int size = pairs.at[lane]->plain_corners[body(p, lane)];
       for (int i = size; i < corners; ++i) {
         x[0][lane] += x[i][lane];
         y[0][lane] += y[i][lane];
       }
-      auto corner = static_cast<int>(piece.start_in[lane]);
+      const std::uint32_t begin = load_start(p, lane);
+      auto corner = static_cast<std::uint32_t>(start[lane]);
       for (int i = 0; i < size; ++i) {
-        to_x[lane][corner] = x[i][lane];
-        to_y[lane][corner] = y[i][lane];
-        if (++corner == size) corner = 0;
+        loads.fx[begin + corner] = x[i][lane];
+        loads.fy[begin + corner] = y[i][lane];
+        if (++corner == static_cast<std::uint32_t>(size)) corner = 0;
       }
     }
   }

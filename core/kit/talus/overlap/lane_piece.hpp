@@ -3,133 +3,174 @@
 #include <talus/contact_model.hpp>
 #include <talus/simd/pack.hpp>
 
-#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
 
 using simd::lanes;
 using simd::Mask;
+using simd::Numbers;
 using simd::Pack;
 using simd::Packs2;
 
-/// One piece in each lane, as the host's arrays know it. A piece with fewer corners than the widest begins
-/// again after its last: sides that own nothing.
-struct LanePieces {
-  const BoundaryCorner* first[lanes];
-  std::uint32_t corners_in[lanes];
-  std::uint32_t start_in[lanes];  ///< corner that is called 0 here
-  alignas(64) double offset_x[lanes], offset_y[lanes], clear_depth[lanes];
+/// A pair of plain bodies in each lane.
+struct LanePairs {
+  const BodyPair* at[lanes];
 
-  void set(int lane, const Boundaries& boundaries, std::uint32_t piece, double x, double y,
-           std::uint32_t start) {
-    const std::uint32_t begin = boundaries.piece_start[piece];
-    first[lane] = boundaries.corner + begin;
-    corners_in[lane] = boundaries.piece_start[piece + 1] - begin;
-    start_in[lane] = start;
-    offset_x[lane] = x;
-    offset_y[lane] = y;
-    clear_depth[lane] = boundaries.clear_depth[piece];
-  }
-
-  bool all_have(std::uint32_t corners) const {
-    std::uint32_t other = 0;
-    for (const std::uint32_t count : corners_in) other |= count ^ corners;
-    return other == 0;
-  }
-
-  /// Corner i of each lane, after those before it; `full`: all have `corners`, a power of two.
-  template <int corners, bool full>
-  void find(int i, const BoundaryCorner** corner) const {
+  /// Eight bytes of each, from `offset` bytes after its beginning.
+  Numbers read(std::size_t offset) const {
+    Numbers all;
     for (int lane = 0; lane < lanes; ++lane) {
-      if constexpr (full) {
-        corner[lane] = first[lane] + ((start_in[lane] + i) & (corners - 1));
-      } else if (i == 0) {
-        corner[lane] = first[lane] + start_in[lane];
-      } else {
-        const BoundaryCorner* next = corner[lane] + 1;
-        corner[lane] = next == first[lane] + corners_in[lane] ? first[lane] : next;
-      }
+      std::uint64_t number;
+      std::memcpy(&number, reinterpret_cast<const char*>(at[lane]) + offset, sizeof number);
+      all[lane] = number;
     }
+    return all;
   }
-};
 
-/// The first four members of a corner (place and tangent), or the next four (velocity, length).
-inline void read_rows(const BoundaryCorner* const* corner, bool second_half, Pack* to) {
-  const double* row[lanes];
-  for (int lane = 0; lane < lanes; ++lane) row[lane] = second_half ? &corner[lane]->vx : &corner[lane]->x;
-  simd::gather_rows(row, to);
+  /// Bytes from Boundaries::corner to the first corner of body a and of body b.
+  struct FirstCorners {
+    Numbers a, b;
+  };
+  FirstCorners first_corners() const {
+    const Numbers both = read(offsetof(BodyPair, corner_start));
+    return {(both & 0xFFFFFFFF) * sizeof(BoundaryCorner), (both >> 32) * sizeof(BoundaryCorner)};
+  }
+
+  /// How many corners body a and body b have.
+  struct CornerCounts {
+    Numbers a, b;
+  };
+  CornerCounts corner_counts() const {
+    const Numbers both = read(offsetof(BodyPair, contact_count)) >> 32;
+    return {both & 0xFFFF, both >> 16};
+  }
+  Numbers contact_count() const { return read(offsetof(BodyPair, contact_count)) & 0xFFFFFFFF; }
+};
+static_assert(std::endian::native == std::endian::little, "the low half of a number comes first");
+static_assert(offsetof(BodyPair, plain_corners) == offsetof(BodyPair, contact_count) + 4);
+
+/// In place of a number of sides that all lanes have.
+inline constexpr int mixed = 0;
+/// How many corners the lanes have, at most `corners` where they are mixed.
+constexpr int corners_of(int sides, int corners) {
+  return sides == mixed ? corners : sides;
 }
 
-/// Where the corners of a piece are and how its sides run, `corners` at most; entry `corners` repeats entry
-/// 0.
-template <int corners>
-struct LaneShape {
-  Packs2 at[corners + 1], tangent[corners + 1];
-  unsigned real[corners];  ///< lanes that have this side, as bits; not told where all have all
+/// One piece in each lane, as the host's arrays know it. Where lanes are mixed, a piece with fewer corners
+/// than the widest begins again after its last: sides that own nothing.
+struct LanePieces {
+  const BoundaryCorner* corner;  ///< Boundaries::corner
+  Numbers first;                 ///< bytes from there to its first corner
+  Numbers start;                 ///< bytes from its first corner to the one called 0 here
+  Numbers count;                 ///< of corners
+  Packs2 offset;                 ///< m, added to all places
 
-  template <bool full>
-  void read(const LanePieces& pieces) {
-    read<full>(pieces, [](int, const BoundaryCorner* const*) {});
+  /// Which corner is called 0 here.
+  Numbers start_corner() const { return start / sizeof(BoundaryCorner); }
+
+  /// The number of sides, if all lanes have 3 or all have 4.
+  int sides() const {
+    const std::uint64_t any = count[0];
+    return any > 4 || simd::any(simd::nonzero(count ^ any)) ? mixed : static_cast<int>(any);
   }
 
-  /// Hands each corner of the lanes to more(i, corner), too.
-  template <bool full, class More>
-  void read(const LanePieces& pieces, const More& more) {
-    const Packs2 offset{simd::load(pieces.offset_x), simd::load(pieces.offset_y)};
-    const BoundaryCorner* corner[lanes];
+  /// Calls visit(i, bytes of each lane) for `corners` corners in turn.
+  template <int corners, int sides, class Visit>
+  void each_corner(const Visit& visit) const {
+    constexpr std::uint64_t step = sizeof(BoundaryCorner);
+    const Numbers end = sides == mixed ? count * step : Numbers{} + sides * step;
+    Numbers turn = start;
     for (int i = 0; i < corners; ++i) {
-      pieces.find<corners, full>(i, corner);
-      Pack row[4];
-      read_rows(corner, false, row);
-      at[i] = Packs2{row[0], row[1]} + offset;
-      tangent[i] = {row[2], row[3]};
-      more(i, corner);
-      if constexpr (!full) {
-        real[i] = 0;
-        for (int lane = 0; lane < lanes; ++lane)
-          real[i] |= (static_cast<std::uint32_t>(i) < pieces.corners_in[lane] ? 1u : 0u) << lane;
-      }
+      const Numbers bytes = first + turn;
+      visit(i, bytes);
+      turn += step;
+      turn = turn == end ? Numbers{} : turn;
     }
-    at[corners] = at[0];
-    tangent[corners] = tangent[0];
   }
 
-  Pack depth(int side, Packs2 point) const { return simd::cross(tangent[side], point - at[side]); }
+  /// Place and tangent of a corner, then, if `whole`, velocity and length.
+  template <bool whole>
+  void read_rows(const Numbers& bytes, Pack* to) const {
+    const double* row[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+      row[lane] = reinterpret_cast<const double*>(reinterpret_cast<const char*>(corner) + bytes[lane]);
+    simd::gather_rows(row, to);
+    if constexpr (whole) simd::gather_rows(row, to + 4, 4);
+  }
+};
+static_assert(offsetof(BoundaryCorner, vx) == 4 * sizeof(double));
+
+/// A corner in each lane, the side that starts there, and what acts at the corner. The next of a piece lies
+/// behind it.
+struct LaneCorner {
+  Packs2 at, tangent, velocity;
+  Pack length;
+  Packs2 load;  ///< N/m
+
+  Packs2 normal() const { return {tangent.y, -tangent.x}; }  ///< outward
+  Pack depth(Packs2 point) const { return simd::cross(tangent, point - at); }
+  void push(Pack size, Packs2 direction) { load = load + size * direction; }
 };
 
-/// A piece with all that contact reads of it.
+/// A piece with all that contact reads of it, `corners` at most. The entry after the last repeats where entry
+/// 0 is and how it moves; what was pushed there is added to entry 0 in the end.
 template <int corners>
-struct LanePiece : LaneShape<corners> {
-  Packs2 velocity[corners + 1];
-  Pack length[corners], inverse_length[corners];
-  Packs2 last_tangent;  ///< of the side that ends at corner 0
-  Pack clear_depth;
-  Mask degenerate;  ///< has a side without length
+struct LanePiece {
+  LaneCorner corner[corners + 1];
+  unsigned real[corners];  ///< of mixed lanes: which have this side, as bits
+  Packs2 last_tangent;     ///< of the side that ends at corner 0
+  Mask degenerate;         ///< has a side without length
 
-  template <bool full>
+  /// Everything; no loads act.
+  template <int sides>
   void read(const LanePieces& pieces) {
-    degenerate = simd::nowhere();
-    LaneShape<corners>::template read<full>(pieces, [&](int i, const BoundaryCorner* const* corner) {
-      Pack row[4];
-      read_rows(corner, true, row);
-      velocity[i] = {row[0], row[1]};
-      length[i] = row[2];
-      inverse_length[i] = 1.0 / length[i];
-      degenerate = degenerate | (length[i] <= 0.0);
-    });
-    velocity[corners] = velocity[0];
-    if constexpr (full) {
-      last_tangent = this->tangent[corners - 1];
+    constexpr int last = corners_of(sides, corners);
+    read_each<sides, true>(pieces);
+    Pack shortest = corner[0].length;
+    for (int i = 1; i < last; ++i) shortest = simd::min(shortest, corner[i].length);
+    degenerate = shortest <= 0.0;
+    corner[last].at = corner[0].at;
+    corner[last].velocity = corner[0].velocity;
+    corner[last].load = {0.0, 0.0};
+    if constexpr (sides != mixed) {
+      last_tangent = corner[last - 1].tangent;
     } else {
-      last_tangent = this->tangent[2];  // no piece has fewer corners
+      last_tangent = corner[2].tangent;  // no piece has fewer corners
       for (int i = 3; i < corners; ++i)
-        last_tangent = simd::select(simd::mask_of(this->real[i]), this->tangent[i], last_tangent);
+        last_tangent = simd::select(simd::mask_of(real[i]), corner[i].tangent, last_tangent);
     }
-    clear_depth = simd::load(pieces.clear_depth);
   }
 
-  Packs2 normal(int side) const { return {this->tangent[side].y, -this->tangent[side].x}; }  ///< outward
+  /// Where the corners are and how the sides run, no more.
+  template <int sides>
+  void read_shape(const LanePieces& pieces) {
+    read_each<sides, false>(pieces);
+  }
+
+ private:
+  template <int sides, bool whole>
+  void read_each(const LanePieces& pieces) {
+    pieces.each_corner<corners_of(sides, corners), sides>([&](int i, const Numbers& bytes) {
+      Pack row[8];
+      pieces.read_rows<whole>(bytes, row);
+      corner[i].at = Packs2{row[0], row[1]} + pieces.offset;
+      corner[i].tangent = {row[2], row[3]};
+      if constexpr (whole) {
+        corner[i].velocity = {row[4], row[5]};
+        corner[i].length = row[6];
+        corner[i].load = {0.0, 0.0};
+      }
+      if constexpr (sides == mixed) {
+        const Numbers here = Numbers{} + static_cast<std::uint64_t>(i);
+        real[i] = simd::bits(simd::nonzero(here < pieces.count ? ~Numbers{} : Numbers{}));
+      }
+    });
+  }
 };
 
 }  // namespace TALUS_SIMD_LEVEL

@@ -23,6 +23,8 @@ inline namespace TALUS_SIMD_LEVEL {
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 
 inline constexpr int lanes = 8;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(64)]] = std::uint64_t;
 
 struct Mask {
   __mmask8 bits;
@@ -82,11 +84,11 @@ inline Packs2 gather_points(const double* const* from) {
   const __m512d even = four(0), odd = four(1);
   return {_mm512_maskz_unpacklo_pd(0xFF, even, odd), _mm512_maskz_unpackhi_pd(0xFF, even, odd)};
 }
-/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
-inline void gather_rows(const double* const* from, Pack* to) {
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
+inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   const auto two = [&](int lane) {  // of this lane and the one four further on
-    return _mm512_maskz_insertf64x4(0xFF, _mm512_castpd256_pd512(_mm256_loadu_pd(from[lane])),
-                                    _mm256_loadu_pd(from[lane + 4]), 1);
+    return _mm512_maskz_insertf64x4(0xFF, _mm512_castpd256_pd512(_mm256_loadu_pd(from[lane] + skip)),
+                                    _mm256_loadu_pd(from[lane + 4] + skip), 1);
   };
   const __m512d p = two(0), q = two(1), r = two(2), s = two(3);
   const __m512d even = _mm512_maskz_unpacklo_pd(0xFF, p, q), odd = _mm512_maskz_unpackhi_pd(0xFF, p, q);
@@ -99,8 +101,9 @@ inline void gather_rows(const double* const* from, Pack* to) {
   to[2] = _mm512_permutex2var_pd(even, high, more_even);
   to[3] = _mm512_permutex2var_pd(odd, high, more_odd);
 }
-/// The way back: to[lane][i] gets from[i] of that lane.
-inline void scatter_rows(const Pack* from, double* const* to) {
+/// Calls visit(lane, from[0…3] of that lane).
+template <class Visit>
+inline void each_row(const Pack* from, const Visit& visit) {
   const __m512d even = _mm512_maskz_unpacklo_pd(0xFF, from[0].value, from[1].value),
                 odd = _mm512_maskz_unpackhi_pd(0xFF, from[0].value, from[1].value),
                 more_even = _mm512_maskz_unpacklo_pd(0xFF, from[2].value, from[3].value),
@@ -108,8 +111,8 @@ inline void scatter_rows(const Pack* from, double* const* to) {
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
   const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   const auto two = [&](int lane, __m512d rows) {  // of this lane and the one four further on
-    _mm256_storeu_pd(to[lane], _mm512_maskz_extractf64x4_pd(0xFF, rows, 0));
-    _mm256_storeu_pd(to[lane + 4], _mm512_maskz_extractf64x4_pd(0xFF, rows, 1));
+    visit(lane, _mm512_maskz_extractf64x4_pd(0xFF, rows, 0));
+    visit(lane + 4, _mm512_maskz_extractf64x4_pd(0xFF, rows, 1));
   };
   two(0, _mm512_permutex2var_pd(even, low, more_even));
   two(1, _mm512_permutex2var_pd(odd, low, more_odd));
@@ -171,10 +174,15 @@ inline unsigned bits(Mask m) {
 inline Mask mask_of(unsigned bits) {
   return {static_cast<__mmask8>(bits)};
 }
+inline Mask nonzero(const Numbers& n) {
+  return {_mm512_test_epi64_mask(reinterpret_cast<const __m512i&>(n), reinterpret_cast<const __m512i&>(n))};
+}
 
 #elif defined(__AVX2__)
 
 inline constexpr int lanes = 4;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(32)]] = std::uint64_t;
 
 struct Mask {
   __m256d value;
@@ -232,10 +240,10 @@ inline Packs2 gather_points(const double* const* from) {
   const __m256d even = two(0), odd = two(1);
   return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
 }
-/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
-inline void gather_rows(const double* const* from, Pack* to) {
-  const __m256d p = _mm256_loadu_pd(from[0]), q = _mm256_loadu_pd(from[1]), r = _mm256_loadu_pd(from[2]),
-                s = _mm256_loadu_pd(from[3]);
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
+inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
+  const __m256d p = _mm256_loadu_pd(from[0] + skip), q = _mm256_loadu_pd(from[1] + skip),
+                r = _mm256_loadu_pd(from[2] + skip), s = _mm256_loadu_pd(from[3] + skip);
   const __m256d even = _mm256_unpacklo_pd(p, q), odd = _mm256_unpackhi_pd(p, q);
   const __m256d more_even = _mm256_unpacklo_pd(r, s), more_odd = _mm256_unpackhi_pd(r, s);
   to[0] = _mm256_permute2f128_pd(even, more_even, 0x20);
@@ -243,16 +251,17 @@ inline void gather_rows(const double* const* from, Pack* to) {
   to[2] = _mm256_permute2f128_pd(even, more_even, 0x31);
   to[3] = _mm256_permute2f128_pd(odd, more_odd, 0x31);
 }
-/// The way back: to[lane][i] gets from[i] of that lane.
-inline void scatter_rows(const Pack* from, double* const* to) {
+/// Calls visit(lane, from[0…3] of that lane).
+template <class Visit>
+inline void each_row(const Pack* from, const Visit& visit) {
   const __m256d even = _mm256_unpacklo_pd(from[0].value, from[1].value),
                 odd = _mm256_unpackhi_pd(from[0].value, from[1].value),
                 more_even = _mm256_unpacklo_pd(from[2].value, from[3].value),
                 more_odd = _mm256_unpackhi_pd(from[2].value, from[3].value);
-  _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(even, more_even, 0x20));
-  _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(odd, more_odd, 0x20));
-  _mm256_storeu_pd(to[2], _mm256_permute2f128_pd(even, more_even, 0x31));
-  _mm256_storeu_pd(to[3], _mm256_permute2f128_pd(odd, more_odd, 0x31));
+  visit(0, _mm256_permute2f128_pd(even, more_even, 0x20));
+  visit(1, _mm256_permute2f128_pd(odd, more_odd, 0x20));
+  visit(2, _mm256_permute2f128_pd(even, more_even, 0x31));
+  visit(3, _mm256_permute2f128_pd(odd, more_odd, 0x31));
 }
 inline Pack operator+(Pack p, Pack q) {
   return _mm256_add_pd(p.value, q.value);
@@ -306,6 +315,9 @@ inline Pack select(Mask m, Pack yes, Pack no) {
 inline unsigned bits(Mask m) {
   return static_cast<unsigned>(_mm256_movemask_pd(m.value));
 }
+inline Mask nonzero(const Numbers& n) {
+  return {reinterpret_cast<__m256d>(n != 0)};
+}
 inline Mask mask_of(unsigned bits) {
   const __m256i bit = _mm256_setr_epi64x(1, 2, 4, 8);
   return {_mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), bit), bit))};
@@ -314,6 +326,8 @@ inline Mask mask_of(unsigned bits) {
 #else
 
 inline constexpr int lanes = 1;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(8)]] = std::uint64_t;
 
 struct Mask {
   bool value;
@@ -359,13 +373,19 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
 inline Packs2 gather_points(const double* const* from) {
   return {from[0][0], from[0][1]};
 }
-/// Four doubles in a row from a place of each lane: to[i] gets from[lane][i].
-inline void gather_rows(const double* const* from, Pack* to) {
-  for (int i = 0; i < 4; ++i) to[i] = from[0][i];
+/// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
+inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
+  for (int i = 0; i < 4; ++i) to[i] = from[0][skip + i];
 }
 /// The way back: to[lane][i] gets from[i] of that lane.
 inline void scatter_rows(const Pack* from, double* const* to) {
   for (int i = 0; i < 4; ++i) to[0][i] = from[i].value;
+}
+/// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
+/// lane.
+template <int count>
+inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* const* to) {
+  for (unsigned i = 0; i < count; ++i) to[0][(start[0] + i) % count] = from[i].value;
 }
 inline Pack operator+(Pack p, Pack q) {
   return p.value + q.value;
@@ -422,8 +442,51 @@ inline unsigned bits(Mask m) {
 inline Mask mask_of(unsigned bits) {
   return {bits != 0};
 }
+inline Mask nonzero(const Numbers& n) {
+  return {n[0] != 0};
+}
 
 #endif
+
+#if defined(__AVX2__)
+/// The way back: to[lane][i] gets from[i] of that lane.
+inline void scatter_rows(const Pack* from, double* const* to) {
+  each_row(from, [&](int lane, __m256d row) { _mm256_storeu_pd(to[lane], row); });
+}
+/// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
+/// lane.
+template <int count>
+inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* const* to) {
+  alignas(32) static constexpr std::int32_t halves[2][4][8] = {
+      {{0, 1, 2, 3, 4, 5}, {4, 5, 0, 1, 2, 3}, {2, 3, 4, 5, 0, 1}, {}},
+      {{0, 1, 2, 3, 4, 5, 6, 7},
+       {6, 7, 0, 1, 2, 3, 4, 5},
+       {4, 5, 6, 7, 0, 1, 2, 3},
+       {2, 3, 4, 5, 6, 7, 0, 1}}};
+  each_row(from, [&](int lane, __m256d row) {
+    const std::int32_t* turn = halves[count - 3][start[lane]];
+    const __m256d turned = _mm256_castps_pd(_mm256_permutevar8x32_ps(
+        _mm256_castpd_ps(row), _mm256_load_si256(reinterpret_cast<const __m256i*>(turn))));
+    if constexpr (count == 4) {
+      _mm256_storeu_pd(to[lane], turned);
+    } else {
+      _mm_storeu_pd(to[lane], _mm256_castpd256_pd128(turned));
+      _mm_store_sd(to[lane] + 2, _mm256_extractf128_pd(turned, 1));
+    }
+  });
+}
+#endif
+
+/// Numbers below 2⁵² as doubles.
+inline Pack as_pack(const Numbers& n) {
+  constexpr double unit = 0x1p52;  // in doubles from there on the last bit counts one
+  std::uint64_t bits_of_unit;
+  std::memcpy(&bits_of_unit, &unit, sizeof unit);
+  const Numbers bits = n | bits_of_unit;
+  Pack shifted_up;
+  std::memcpy(&shifted_up, &bits, sizeof bits);
+  return shifted_up - unit;
+}
 
 inline Mask operator>(Pack p, Pack q) {
   return q < p;

@@ -58,7 +58,6 @@ class TwoBodies {
     const std::uint8_t strips[2] = {0, 0};
     const double clear_depth[2] = {0, 0};
     history_.resize(std::size_t{capacity} * doubles);
-    const auto count_b = corners_.size() - count_a_;
     BodyPair pair{};
     pair.b = 1;
     pair.piece_pair_end = 1;
@@ -66,9 +65,10 @@ class TwoBodies {
     pair.reduced_mass = reduced_mass;
     pair.slot_capacity = capacity;
     pair.contact_count = contacts_;
-    pair.plain_corners = static_cast<std::uint32_t>(count_a_ > count_b ? count_a_ : count_b);
     const PiecePair pieces{0, 1, 0};
-    const ContactBatch batch{{corners_.data(), piece_start_.data(), strips, clear_depth},
+    const Boundaries boundaries{corners_.data(), piece_start_.data(), strips, clear_depth};
+    describe_plain(pair, pieces, boundaries, row);
+    const ContactBatch batch{boundaries,
                              {&row, interface.data(), 1, static_cast<std::uint32_t>(interface.size())},
                              &pair,
                              &pieces,
