@@ -110,6 +110,47 @@ TEST_CASE("Plain bodies side by side feel what they feel one by one", "[laws][la
   CHECK(worst_energy < 1e-8);
 }
 
+TEST_CASE("Pairs of all shapes, side by side, feel what they feel one by one", "[laws][lanes]") {
+  const double share = GENERATE(0.0, 0.5, 1.0);
+  const std::size_t fewest = GENERATE(3, 4),
+                    most = GENERATE(3, 4, 6);  // corners; groups of one shape and mixed
+  if (fewest > most) return;
+  constexpr std::size_t couples = 45;
+  Uniform uniform;
+  LawBench lanes("overlap_area");
+  for (std::size_t i = 0; i < couples; ++i) {
+    for (int one = 0; one < 2; ++one) {
+      const auto corners =
+          fewest + static_cast<std::size_t>(uniform() * static_cast<double>(most - fewest + 1));
+      lanes.bodies.push_back(irregular(uniform, corners, 1));
+      set_moving(uniform, lanes.bodies.back());
+    }
+    HeldBody &a = lanes.bodies[2 * i], &b = lanes.bodies[2 * i + 1];
+    a.centre.x += 10 * static_cast<double>(i);
+    bring_together(uniform, a, b, 0.02);
+    lanes.met.emplace_back(2 * i, 2 * i + 1);
+  }
+  lanes.master_share = share;
+  LawBench general("overlap_area");
+  general.bodies = lanes.bodies;
+  general.met = lanes.met;
+  general.master_share = share;
+  general.plain = false;
+  for (int step = 0; step < 3; ++step) {
+    const Evaluation fast = lanes.step(1e-5), due = general.step(1e-5);
+    CAPTURE(share, fewest, most, step);
+    std::size_t touching = 0;
+    for (std::size_t i = 0; i < couples; ++i) {
+      REQUIRE(fast.pairs[i].contact_count == due.pairs[i].contact_count);
+      touching += due.pairs[i].contact_count;
+      if (due.pairs[i].contact_count != 0)
+        CHECK(fast.pairs[i].stored == Approx(due.pairs[i].stored).epsilon(1e-8));
+    }
+    CHECK(touching > couples / 2);
+    CHECK(difference(due, fast) < 1e-8);
+  }
+}
+
 TEST_CASE("Springs without stiffness carry nothing, side by side as well", "[laws][lanes]") {
   const std::string law = GENERATE("overlap_area", "frictionless");
   Values interface {
