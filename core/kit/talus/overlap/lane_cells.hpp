@@ -3,7 +3,9 @@
 #include <talus/overlap/lane_piece.hpp>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
@@ -32,14 +34,6 @@ struct LaneCell {
   Pack shear;                ///< part of a unit tangential force on piece 1, on the slave
 };
 
-/// A range that a loop may go through.
-template <class T>
-struct LaneRange {
-  T *first, *last;
-  T* begin() const { return first; }
-  T* end() const { return last; }
-};
-
 /// Cells of one piece as master, the other as slave (§3.2.1), in closed form by Green's theorem. With s along
 /// a master side and d the depth behind it, a cell is bounded by stretches of slave sides, by the side itself
 /// (d = 0) and by lines of division through the side's ends, along which ∮ d ds = s d/2, ∮ s d ds = s² d/3
@@ -58,8 +52,8 @@ class LaneCells {
   Packs2 force;                   ///< N/m on the slave
   Pack pattern;                   ///< which sides meet, 4 · master side + slave side (of four) as bits
 
-  LaneRange<LaneCell> cells() { return {cell_, cell_ + cell_count_}; }
-  LaneRange<const LaneCell> cells() const { return {cell_, cell_ + cell_count_}; }
+  std::span<LaneCell> cells() { return std::span(cell_).first(cell_count_); }
+  std::span<const LaneCell> cells() const { return std::span(cell_).first(cell_count_); }
 
   /// Finds the cells and loads both pieces with their pressure; either all lanes are mixed or none.
   template <int master_sides, int slave_sides>
@@ -265,7 +259,7 @@ class LaneCells {
   bool clear_[corners];  ///< whether any corner of a slave is less deep than clear_depth behind the side
   LaneCell cell_[corners];
   LaneSegment segment_[corners * corners];  ///< cell after cell
-  int cell_count_ = 0;
+  std::size_t cell_count_ = 0;
   LaneSegment* next_segment_ = segment_;
 };
 

@@ -20,6 +20,7 @@ struct TouchingPair {
   static constexpr double pattern_unit = 64;
   /// Added to a code of an earlier step: nobody has looked whether the pieces overlap.
   static constexpr std::uint32_t unseen_bit = 1u << 31;
+  /// Added once where the master has three corners, twice where the slave has: those share a group, too.
   static constexpr std::uint32_t shape_unit = 1u << 24;
 
   static TouchingPair remembered(std::uint32_t pair, double code) {
@@ -29,7 +30,6 @@ struct TouchingPair {
     return {pair, 1 + start_a + 8 * start_b};
   }
   std::uint32_t pattern() const { return ((code - 1) & ~unseen_bit & ~(3 * shape_unit)) >> 6; }
-  /// 0 to 3: those of like shapes share a group.
   std::uint32_t shape() const { return code / shape_unit & 3; }
   bool unseen() const { return code >= unseen_bit; }
 };
