@@ -23,12 +23,6 @@ constexpr double clear_share = 0.8;
 constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
 constexpr std::size_t body_chunk = 64;
 
-#ifdef TALUS_AUDIT
-constexpr bool audit = true;  // all loads are no numbers until the law has written them
-#else
-constexpr bool audit = false;
-#endif
-
 void noop(void* /*object*/) noexcept {}
 
 /// An eighth more than is wanted: doubling would take twice the memory, no more at all new memory at most
@@ -38,9 +32,13 @@ void make_room_in(std::vector<T>& values, std::size_t wanted) {
   if (wanted > values.capacity()) values.reserve(wanted + wanted / 8);
 }
 
+bool is_one_piece(const Model& model, const Body& body) {
+  return body.piece_end == body.piece_begin + 1 && model.is_strip[body.piece_begin] == 0;
+}
+
 /// Whether laws may take it for one convex piece of one surface class all around.
 bool is_plain(const Model& model, const Body& body) {
-  if (body.piece_end != body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) return false;
+  if (!is_one_piece(model, body)) return false;
   if (body.corner_end - body.corner_begin > std::numeric_limits<std::uint16_t>::max()) return false;
   const std::uint32_t surface = model.surface[body.corner_begin];
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
@@ -63,9 +61,8 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   for (const Body& body : model.bodies) {
     fixed_.push_back(body.kinematics == Kinematics::fixed);
     plain_.push_back(is_plain(model, body) ? 1 : 0);
-    const bool one_piece = body.piece_end == body.piece_begin + 1 && model.is_strip[body.piece_begin] == 0;
     corner_begin_.push_back(body.corner_begin);
-    corner_count_.push_back(one_piece ? body.corner_end - body.corner_begin : 0);
+    corner_count_.push_back(is_one_piece(model, body) ? body.corner_end - body.corner_begin : 0);
   }
   if (scene.contact.component == nullptr) return;
   const MotionState at_start(model);
@@ -276,6 +273,12 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
   } while (wake_touched());
   history_.swap(next_history_);
   const ContactTotals totals = close_step();
+#ifdef TALUS_AUDIT
+  // All loads were no numbers until the law wrote them; those of pairs apart are zero.
+  for (const BodyPair& pair : pairs_) {
+    if (pair.contact_count == 0) clear_loads(pair);
+  }
+#endif
   add_loads(model, motion);
   return totals;
 }
@@ -287,7 +290,12 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   call_law(model, motion, conditions);
   interfaces_.value = interface_values_.data();
   double sum = 0;
-  for (const PairReport& report : pair_reports_) sum += report.stored + report.slip_loss;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const PairReport& report = pair_reports_[i];
+    sum += report.stored + report.slip_loss;
+    // With other parameters a law may find contact where it finds none now.
+    if (report.contact_count != 0 && pairs_[i].contact_count == 0) clear_loads(pairs_[i]);
+  }
   return sum;
 }
 
@@ -368,7 +376,7 @@ ContactTotals ContactStage::close_step() {
     for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
       const std::size_t i = begin + active_[begin + k];
       const PairReport& report = pair_reports_[i];
-      if (report.contact_count == 0 && (audit || pairs_[i].contact_count != 0)) clear_loads(pairs_[i]);
+      if (report.contact_count == 0 && pairs_[i].contact_count != 0) clear_loads(pairs_[i]);
       pairs_[i].contact_count = report.contact_count;
       damping_power_[i] = report.damping_power;
       ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
