@@ -38,7 +38,7 @@ class Frictionless final : public ContactModel {
 
 constexpr Component components[] = {contact_model<Frictionless>(
     "frictionless", "The overlap-area law without its tangential part: no friction, no history.", {},
-    interface_parameters, trait::has_potential)};
+    interface_parameters, trait::has_potential | trait::spread_springs)};
 
 }  // namespace
 

@@ -60,7 +60,7 @@ class OverlapArea final : public ContactModel {
 constexpr Component components[] = {contact_model<OverlapArea>(
     "overlap_area",
     "Contact by overlap area: pressure by distance to the nearest master side, friction per overlap.",
-    parameters, interface_parameters, trait::has_potential)};
+    parameters, interface_parameters, trait::has_potential | trait::spread_springs)};
 
 }  // namespace
 

@@ -95,10 +95,18 @@ Values with_friction(double angle) {
       {{"friction_angle", angle}, {"friction_coefficient", std::tan(angle * 3.14159265358979323846 / 180)}});
 }
 
+/// A small angle, about a point given relative to the centre, of a body that has not moved.
+void turn_about(HeldBody& body, Vec2 at, double angle) {
+  body.motion.h = {0, -angle, angle, 0};
+  body.motion.u = {angle * at.y, -angle * at.x};
+}
+
 /// Force along `direction` per way of the upper body, N/m per m, between two depths.
 struct Measured {
   double normal, tangential, damping;
-  double rounded;  ///< what round-off makes of nothing
+  double rocking;    ///< N m per rad and metre, about the middle of the contact
+  double stretched;  ///< the same of springs along it, per strain
+  double rounded;    ///< what round-off makes of nothing
 };
 
 Measured measured(const Subject& subject, double width, double depth) {
@@ -111,16 +119,30 @@ Measured measured(const Subject& subject, double width, double depth) {
   law.bodies[1].motion.u.y -= step;
   const double deeper = law.look().on(1).y;
   law.bodies = bodies;
+  const Vec2 foot = bodies[1].reference_of({0, -depth});
+  const double level = law.look().moment_on(1, foot);
+  turn_about(law.bodies[1], foot, step / width);
+  const double rocking = (level - law.look().moment_on(1, foot)) / (step / width);
+  law.bodies = bodies;
   law.step(dt);
   law.bodies[1].motion.velocity = {step / dt, 0};
   const double sheared = -law.step(dt).on(1).x;
+  law.bodies = bodies;
+  law.history.clear();
+  const double loose = law.step(dt).forces[1].moment.xx;
+  law.bodies[1].motion.rate.xx = step / width / dt;
+  const double stretched = (loose - law.step(dt).forces[1].moment.xx) / (step / width);
 
   DrivenLaw damped(*subject.component, with(lively_interface(), {{"tangential_damping", 0}}));
   damped.bodies = bodies;
   const double still = damped.look(1e-9).on(1).y;
   constexpr double speed = 0.01;
   damped.bodies[1].motion.velocity = {0, -speed};
-  return {(deeper - here) / step, sheared / step, (damped.look(1e-9).on(1).y - still) / speed,
+  return {(deeper - here) / step,
+          sheared / step,
+          (damped.look(1e-9).on(1).y - still) / speed,
+          rocking,
+          stretched,
           1e-15 * here / (depth * step)};
 }
 
@@ -222,9 +244,16 @@ void check_stiffness(const Subject& subject, Trial& trial) {
     trial.at_most(
         declared.normal, order * found.normal,
         fmt::format("declared normal stiffness [N/m per m], where {:.9g} is measured", found.normal));
+    const bool spread = (subject.component->component->traits & trait::spread_springs) != 0;
+    const double lever = width * width / (spread ? 12 : 4);
+    trial.at_most(found.rocking, allowed * declared.normal * lever,
+                  "measured stiffness against rocking [N m per rad and metre]");
     trial.at_most(found.tangential, allowed * declared.tangential + found.rounded,
                   "measured tangential stiffness [N/m per m]");
     if (found.tangential > found.rounded) {
+      trial.at_most(found.stretched,
+                    allowed * (declared.tangential + 4 * depth / width * found.normal) * lever,
+                    "measured stiffness along a contact that is stretched [N m per strain and metre]");
       trial.at_most(declared.tangential, order * found.tangential,
                     fmt::format("declared tangential stiffness [N/m per m], where {:.9g} is measured",
                                 found.tangential));

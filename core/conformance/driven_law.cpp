@@ -47,6 +47,15 @@ Vec2 Evaluation::on(std::uint32_t body) const {
   return forces[body].force;
 }
 
+double Evaluation::moment_on(std::uint32_t body, Vec2 reference) const {
+  double sum = 0;
+  for (const CornerLoad& load : corners) {
+    if (load.body != body) continue;
+    sum += (load.reference.x - reference.x) * load.force.y - (load.reference.y - reference.y) * load.force.x;
+  }
+  return sum;
+}
+
 DrivenLaw::DrivenLaw(const RegisteredComponent& component, const Values& interface, const Values& parameters)
     : component_(&component),
       law_(make<ContactModel>(

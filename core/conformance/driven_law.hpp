@@ -27,10 +27,11 @@ struct Evaluation {
   std::vector<ContactReport> contacts;  ///< of all pairs, one after the other
   std::vector<double> history;
 
-  double size() const;                ///< N/m, Σ|F|
-  Vec2 net_force() const;             ///< N/m
-  double net_moment() const;          ///< N, about the first loaded corner
-  Vec2 on(std::uint32_t body) const;  ///< N/m, ΣF
+  double size() const;                                         ///< N/m, Σ|F|
+  Vec2 net_force() const;                                      ///< N/m
+  double net_moment() const;                                   ///< N, about the first loaded corner
+  Vec2 on(std::uint32_t body) const;                           ///< N/m, ΣF
+  double moment_on(std::uint32_t body, Vec2 reference) const;  ///< N, about a place relative to its centre
 };
 
 /// Drives one contact law as the host does, without covers and masses around it. Throws std::runtime_error

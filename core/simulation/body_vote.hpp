@@ -15,12 +15,28 @@ struct Meetings {
   double stiffness_factor = 1, damping_factor = 1;
 };
 
-/// Springs and dashpots a side of a body may meet, lumped at each of its ends: per metre of thickness, N/m
-/// and N s/m.
+/// Springs and dashpots a side of a body may meet, half of them for each of its ends: per metre of thickness,
+/// N/m and N s/m.
 struct SideSprings {
-  double normal = 0, tangential = 0, support = 0;
+  double normal = 0, tangential = 0;  ///< of contacts
   double normal_damping = 0, tangential_damping = 0;
+  bool spread = false;                      ///< see trait::spread_springs; else they stand at the ends
+  double support = 0, support_damping = 0;  ///< at the ends, in any direction
 };
+
+/// What springs meet of the motion of the ends of a side, with mean m and difference d: twice k, half of
+/// them, store ½ · 2k (mean · m² + change · d²).
+struct Reach {
+  double mean, change;
+};
+inline constexpr Reach at_ends{1, 1.0 / 4};
+inline constexpr Reach spread_evenly{1, 1.0 / 12};
+/// A dashpot is as √L, so a contact of a part L of the side has a larger share of it. Of all parts, the one
+/// of 0.48 at an end meets most: 0.166 of d² beside m².
+inline constexpr Reach spread_dashpot{1, 1.0 / 6};
+/// Along the side one spring acts where the pressure has its resultant: e = 1/2 − L/3 off the middle at most,
+/// for pressure that is linear over the part L. L (m + e d)² is at most this for all L, and √L (m + e d)².
+inline constexpr Reach at_resultant{1.2, 1.0 / 6}, dashpot_at_resultant{1.2, 0.198};
 
 /// Largest squared angular frequency of a body with all its springs, 1/s², and largest damping rate, 1/s.
 struct BodyVote {

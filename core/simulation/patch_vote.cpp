@@ -42,10 +42,24 @@ void add_elastic(const Model& model, const Body& body, const Tangent& tangent, d
   }
 }
 
-/// Adds springs of the given strengths across and along each side, at its ends.
-template <class Strengths>
+void add_load(const Carrier& carrier, double size, Vec2 direction, Field& to) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    to[carrier.patch[k]].x += carrier.weight[k] * size * direction.x;
+    to[carrier.patch[k]].y += carrier.weight[k] * size * direction.y;
+  }
+}
+
+/// Halves of springs or of dashpots of a side, as SideSprings has them.
+struct Strengths {
+  double across;
+  Reach reach;  ///< of those across
+  double along, support;
+};
+
+/// Adds the springs or dashpots of each side.
+template <class StrengthsOf>
 void add_springs(const Model& model, const Body& body, const SpringsOfSides& springs,
-                 const Strengths& strengths, const Field& from, Field& to) {
+                 const StrengthsOf& strengths_of, const Field& from, Field& to) {
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const BoundarySide& side = model.sides[body.side_begin + i];
     const Vec2 start = side.start.reference, end = side.end.reference;
@@ -53,20 +67,18 @@ void add_springs(const Model& model, const Body& body, const SpringsOfSides& spr
         std::sqrt((end.x - start.x) * (end.x - start.x) + (end.y - start.y) * (end.y - start.y));
     if (!(length > 0)) continue;
     const Vec2 along{(end.x - start.x) / length, (end.y - start.y) / length}, across{along.y, -along.x};
-    const auto [normal, tangential] = strengths(springs[i]);
-    for (const MaterialPoint* point : {&side.start, &side.end}) {
-      Vec2 u;
-      for (std::size_t k = 0; k < 3; ++k) {
-        u.x += point->carrier.weight[k] * from[point->carrier.patch[k]].x;
-        u.y += point->carrier.weight[k] * from[point->carrier.patch[k]].y;
-      }
-      const double n = normal * (u.x * across.x + u.y * across.y),
-                   t = tangential * (u.x * along.x + u.y * along.y);
-      for (std::size_t k = 0; k < 3; ++k) {
-        to[point->carrier.patch[k]].x += point->carrier.weight[k] * (n * across.x + t * along.x);
-        to[point->carrier.patch[k]].y += point->carrier.weight[k] * (n * across.y + t * along.y);
-      }
-    }
+    const Strengths strengths = strengths_of(springs[i]);
+    const auto add = [&](Vec2 direction, double half, Reach reach) {
+      const double first = dot(carried(side.start.carrier, from), direction),
+                   last = dot(carried(side.end.carrier, from), direction);
+      const double mean = half * reach.mean * (first + last) / 2,
+                   change = 2 * half * reach.change * (last - first);
+      add_load(side.start.carrier, mean - change, direction, to);
+      add_load(side.end.carrier, mean + change, direction, to);
+    };
+    add(across, strengths.across, strengths.reach);
+    add(across, strengths.support, at_ends);
+    add(along, strengths.along + strengths.support, at_ends);  // one overlap may load one side of many
   }
 }
 
@@ -148,8 +160,10 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
   const Operator sprung = [&](const Field& from, Field& to) {
     add_springs(
         model, body, springs,
-        [](const SideSprings& s) { return std::pair(s.normal + s.support, s.tangential + s.support); }, from,
-        to);
+        [](const SideSprings& s) {
+          return Strengths{s.normal, s.spread ? spread_evenly : at_ends, s.tangential, s.support};
+        },
+        from, to);
   };
   const Operator stiffness = [&](const Field& from, Field& to) {
     elastic(from, to);
@@ -159,12 +173,17 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
     if (tangent.viscous_time > 0) add_elastic(model, body, tangent, tangent.viscous_time, from, to);
     add_springs(
         model, body, springs,
-        [](const SideSprings& s) { return std::pair(s.normal_damping, s.tangential_damping); }, from, to);
+        [](const SideSprings& s) {
+          return Strengths{s.normal_damping, s.spread ? spread_dashpot : at_ends, s.tangential_damping,
+                           s.support_damping};
+        },
+        from, to);
   };
   const auto any = [&](const auto& wanted) { return std::any_of(springs.begin(), springs.end(), wanted); };
   const bool has_springs = any([](const SideSprings& s) { return s.normal + s.tangential + s.support > 0; });
-  const bool damped = tangent.viscous_time > 0 ||
-                      any([](const SideSprings& s) { return s.normal_damping + s.tangential_damping > 0; });
+  const bool damped = tangent.viscous_time > 0 || any([](const SideSprings& s) {
+                        return s.normal_damping + s.tangential_damping + s.support_damping > 0;
+                      });
   BodyVote vote;
   vote.elastic_lambda = largest_eigenvalue(model, mass, index, elastic);
   vote.lambda = has_springs ? largest_eigenvalue(model, mass, index, stiffness) : vote.elastic_lambda;

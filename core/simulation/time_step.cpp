@@ -15,7 +15,7 @@ constexpr double most_contacts_on_side = 3;  ///< of a body of many elements, th
 
 /// The stiffest springs a side can meet on any other body, lumped at its ends.
 SideSprings stiffest_meeting(const Body& body, std::uint32_t surface, double length,
-                             const ContactStage& contacts, const Meetings& met) {
+                             const ContactStage& contacts, const Meetings& met, bool spread) {
   ContactStiffness most{};
   const Interfaces& interfaces = contacts.interfaces();
   for (std::uint32_t other = 0; other < interfaces.surface_count; ++other) {
@@ -36,9 +36,11 @@ SideSprings stiffest_meeting(const Body& body, std::uint32_t surface, double len
                ? met.damping_factor * 2 * ratio * std::sqrt(pieces * body.contact_mass * stiffness / 2)
                : 0.0;
   };
-  return {met.stiffness_factor * most.normal, met.stiffness_factor * most.tangential, 0,
-          damping(most.normal, most.normal_damping_ratio),
-          damping(most.tangential, most.tangential_damping_ratio)};
+  return {.normal = met.stiffness_factor * most.normal,
+          .tangential = met.stiffness_factor * most.tangential,
+          .normal_damping = damping(most.normal, most.normal_damping_ratio),
+          .tangential_damping = damping(most.tangential, most.tangential_damping_ratio),
+          .spread = spread};
 }
 
 double length_of(const BoundarySide& side) {
@@ -121,9 +123,10 @@ SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, con
   };
   if (contacts.law() != nullptr) {
     const Meetings met = crowd.met_by(index);
+    const bool spread = (scene.contact.component->component->traits & trait::spread_springs) != 0;
     for (std::size_t i = 0; i < springs.size(); ++i) {
       const BoundarySide& side = model.sides[body.side_begin + i];
-      springs[i] = stiffest_meeting(body, side.surface, length_of(side), contacts, met);
+      springs[i] = stiffest_meeting(body, side.surface, length_of(side), contacts, met, spread);
     }
   }
   for (const PrescribedSurface& prescribed : settings.prescribed) {
@@ -134,8 +137,7 @@ SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, con
   for (const AbsorbingSurface& absorbing : settings.absorbing) {
     if (absorbing.body != index) continue;
     on_surface(absorbing.surface_class, [&](SideSprings& side, double length) {
-      side.normal_damping += impedance(scene, index) * length / 2;
-      side.tangential_damping += impedance(scene, index) * length / 2;
+      side.support_damping += impedance(scene, index) * length / 2;
     });
   }
   return springs;

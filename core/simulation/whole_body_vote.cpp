@@ -82,13 +82,22 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
     const Vec2 start = side.start.reference, end = side.end.reference;
     const Eigen::Vector2d along = Eigen::Vector2d(end.x - start.x, end.y - start.y).normalized();
     const Eigen::Vector2d across(along.y(), -along.x());
-    for (const Vec2 corner : {start, end}) {
-      const Shape shape = shape_at(body.kinematics, corner);
-      const Eigen::VectorXd n = shape.transpose() * across, t = shape.transpose() * along;
-      stiffness += springs[i].normal * n * n.transpose() + springs[i].tangential * t * t.transpose() +
-                   springs[i].support * shape.transpose() * shape;
-      damping +=
-          springs[i].normal_damping * n * n.transpose() + springs[i].tangential_damping * t * t.transpose();
+    const Shape at_start = shape_at(body.kinematics, start), at_end = shape_at(body.kinematics, end);
+    const Shape mean = (at_start + at_end) / 2, change = at_end - at_start;
+    const auto add = [&](Eigen::MatrixXd& to, const Eigen::Vector2d& direction, double half, Reach reach) {
+      const Eigen::VectorXd m = mean.transpose() * direction, d = change.transpose() * direction;
+      to += 2 * half * (reach.mean * m * m.transpose() + reach.change * d * d.transpose());
+    };
+    const SideSprings& on = springs[i];
+    // A rigid side has one velocity along it, wherever somebody holds it.
+    const bool at_one_place = on.spread && body.kinematics != Kinematics::rigid;
+    add(stiffness, across, on.normal, on.spread ? spread_evenly : at_ends);
+    add(stiffness, along, on.tangential, at_one_place ? at_resultant : at_ends);
+    add(damping, across, on.normal_damping, on.spread ? spread_dashpot : at_ends);
+    add(damping, along, on.tangential_damping, at_one_place ? dashpot_at_resultant : at_ends);
+    for (const Shape& shape : {at_start, at_end}) {
+      stiffness += on.support * shape.transpose() * shape;
+      damping += on.support_damping * shape.transpose() * shape;
     }
   }
   return {largest_eigenvalue(stiffness, mass), largest_eigenvalue(damping, mass),

@@ -60,7 +60,7 @@ constexpr const char* lattices = R"({"talus": 1, "gravity": [0, -10],
 
 Scene scene_of(const Stack& stack, const char* law) {
   std::vector<Override> overrides{
-      {"/contact/model", law}, {"/time/safety", "0.4"}, {"/output/history", "0.0005"}};
+      {"/contact/model", law}, {"/time/safety", "0.2"}, {"/output/history", "0.0005"}};
   if (stack.scene == nullptr) return from_text(lattices, overrides);
   overrides.push_back({"/cover/model", stack.cover});
   return shipped(stack.scene, overrides);

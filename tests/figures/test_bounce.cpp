@@ -105,8 +105,8 @@ TEST_CASE("A frictionless bounce errs with the square of the time step", "[slow]
       // wider by a part of a step's way moves the beginning, a step a little smaller the end.
       const auto worst = [&](double safety) {
         double error = 0;
-        for (int phase = 0; phase < 24; ++phase) {
-          const double wider = 2e-4 * safety * (phase % 6) / 6, smaller = 1 - 0.03 * (phase / 6);
+        for (int phase = 0; phase < 48; ++phase) {
+          const double wider = 7e-4 * safety * (phase % 8) / 8, smaller = 1 - 0.023 * (phase / 8);
           const Scene scene = thrown(one.ring, one.degrees, cover, smaller * safety, 1e-3 + wider);
           error = std::max(error, bounce(scene).error);
         }

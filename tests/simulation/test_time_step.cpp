@@ -150,6 +150,23 @@ TEST_CASE("the vote is an upper bound of the frequency, whatever the bodies", "[
   }
 }
 
+TEST_CASE("springs spread along a side resist rocking with a third of what those at its ends would",
+          "[simulation][time_step]") {
+  // A smooth rigid bar of 4 x 1 m on a base, which anybody may meet anywhere: with the springs of all sides
+  // ω² m = 2α 4 as it jumps, and ω² m (4² + 1²)/12 = 2α (4³ + 1³)/12 as it rocks.
+  WorkingScene bar;
+  bar.cover = "rigid";
+  bar.bodies = box("base", -5, -1, 9, 0, R"("fixed": true)") + ", " + box("bar", 0, 0, 4, 1);
+  bar.interface = stiff(1e10, 0);
+  const double mass = 4 * 2300, jumping = 2 * 1e10 * 4 / mass, rocking = 2 * 1e10 * 65 / (17 * mass);
+  REQUIRE(rocking < jumping);
+  const Judged judged = judge(bar, {{0, 0}, {0, -1e-4}});
+  CHECK(judged.voted == Approx(2 / std::sqrt(jumping)).epsilon(1e-9));
+  CHECK(judged.ratio() >= 1);
+  bar.law = "vertex_edge";
+  CHECK(vote_of(bar.read()).dt == Approx(2 / std::sqrt(3 * rocking)).epsilon(1e-9));
+}
+
 TEST_CASE("penalty supports and tangential springs vote, too", "[simulation][time_step]") {
   WorkingScene held;
   held.bodies = box("a", 0, 0, 1, 1, R"("surfaces": {"below": [0]})");

@@ -30,6 +30,10 @@ namespace trait {
 inline constexpr std::uint32_t has_potential = 1;
 /// Contact law: bodies may pull at each other even where cohesion and tensile strength are zero.
 inline constexpr std::uint32_t pulls = 2;
+/// Contact law: springs and dashpots across a contact are spread evenly along it, so that a flat one that
+/// rocks meets a third of what they would be at its two ends. Those along it are spread, too, or act as one
+/// where the pressure has its resultant. Steps can be longer for it.
+inline constexpr std::uint32_t spread_springs = 4;
 }  // namespace trait
 
 struct Component {
