@@ -130,8 +130,13 @@ void ContactStage::note_neighbours(const Model& model) {
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {
-  old_pairs_.swap(pairs_);
-  old_damping_power_.swap(damping_power_);
+  former_pairs_.clear();
+  make_room_in(former_pairs_, pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const BodyPair& pair = pairs_[i];
+    former_pairs_.push_back(
+        {pair.a, pair.b, pair.slot_start, pair.slot_capacity, pair.contact_count, damping_power_[i]});
+  }
   pairs_.clear();
   piece_pairs_.clear();
   const auto same_bodies = [](const Candidate& p, const Candidate& q) {
@@ -169,18 +174,16 @@ void ContactStage::rebuild_pairs(const Model& model) {
   damping_power_.assign(pairs_.size(), 0.0);
   capacities_.clear();
   for (const BodyPair& pair : pairs_) capacities_.push_back(pair.plain() ? 1 : first_capacity);
-  std::size_t old = 0;
+  auto former = former_pairs_.cbegin();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto before = [&](const BodyPair& p) {
-      return std::pair{p.a, p.b} < std::pair{pairs_[i].a, pairs_[i].b};
-    };
-    while (old < old_pairs_.size() && before(old_pairs_[old])) ++old;
-    if (old == old_pairs_.size() || old_pairs_[old].a != pairs_[i].a || old_pairs_[old].b != pairs_[i].b)
-      continue;
-    pairs_[i].slot_start = old_pairs_[old].slot_start;
-    pairs_[i].contact_count = old_pairs_[old].contact_count;
-    capacities_[i] = old_pairs_[old].slot_capacity;
-    damping_power_[i] = old_damping_power_[old];
+    const auto bodies = [](const auto& pair) { return std::pair{pair.a, pair.b}; };
+    while (former != former_pairs_.cend() && bodies(*former) < bodies(pairs_[i])) ++former;
+    if (former == former_pairs_.cend()) break;
+    if (bodies(*former) != bodies(pairs_[i])) continue;
+    pairs_[i].slot_start = former->slot_start;
+    pairs_[i].contact_count = former->contact_count;
+    capacities_[i] = former->slot_capacity;
+    damping_power_[i] = former->damping_power;
   }
   lay_out_slots(capacities_);
   if (!island_.empty()) hold_sleeping_pairs();
@@ -195,6 +198,7 @@ void ContactStage::make_room_for_loads(const Model& model) {
     loads += model.piece_start[pieces.b + 1] - model.piece_start[pieces.b];
   }
   for (std::vector<double>* values : {&load_x_, &load_y_}) {
+    make_room_in(*values, loads + guard_loads);
     values->assign(loads, 0.0);  // where no pair touches they stay zero
     values->resize(loads + guard_loads, guard_load);
   }

@@ -125,7 +125,13 @@ class ContactStage {
   NeighbourSearch search_;
   std::vector<Candidate> candidates_;
   std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
-  std::vector<BodyPair> pairs_, old_pairs_;
+  std::vector<BodyPair> pairs_;
+  /// What goes with a pair from one search to the next.
+  struct FormerPair {
+    std::uint32_t a, b, slot_start, slot_capacity, contact_count;
+    double damping_power;
+  };
+  std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
   std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body
   std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
@@ -134,7 +140,7 @@ class ContactStage {
   double travelled_ = 0;               ///< m, bound of what a corner has moved since the last search
   std::vector<double> ask_again_;      ///< [pair] m, of travelled_
   std::vector<std::uint32_t> active_;  ///< pairs a law is to be asked about, chunk by chunk of pairs
-  std::vector<double> damping_power_, old_damping_power_;  ///< [pair] J/m of the last step
+  std::vector<double> damping_power_;  ///< [pair] J/m of the last step
   std::vector<std::uint32_t> capacities_;
   std::vector<double> history_, next_history_;
   std::vector<ContactReport> reports_;
