@@ -176,7 +176,7 @@ TEST_CASE("a stage that stiffens a closed contact is booked as work", "[simulati
     text.rest = fmt::format(R"("settle": {{"duration": 2, "damping": "adaptive", "until": 1e-8}},
       "stages": [{{"name": "other", "from": 0.1, "set": {{"/interfaces/0/normal_stiffness": {}}}}}],)",
                             stiffness);
-    text.time = R"({"end": 0.3, "safety": 0.025})";
+    text.time = R"({"end": 0.3, "safety": 0.015})";
     const Scene scene = text.read();
     Simulation simulation(scene, {});
     simulation.settle();
