@@ -276,7 +276,6 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
     while (!call_law(model, motion, conditions)) make_room();
   } while (wake_touched());
   history_.swap(next_history_);
-  const ContactTotals totals = close_step();
 #ifdef TALUS_AUDIT
   // All loads were no numbers until the law wrote them; those of pairs apart are zero.
   for (const BodyPair& pair : pairs_) {
@@ -284,7 +283,7 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
   }
 #endif
   add_loads(model, motion);
-  return totals;
+  return totals();
 }
 
 double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
@@ -293,14 +292,9 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   interfaces_.value = former_interface_values_.data();
   call_law(model, motion, conditions);
   interfaces_.value = interface_values_.data();
-  double sum = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const PairReport& report = pair_reports_[i];
-    sum += report.stored + report.slip_loss;
-    // With other parameters a law may find contact where it finds none now.
-    if (report.contact_count != 0 && pairs_[i].contact_count == 0) clear_loads(pairs_[i]);
-  }
-  return sum;
+  const ContactTotals found = totals();
+  take_back();
+  return found.stored + found.slip_loss;
 }
 
 /// False when the law found more contacts somewhere than there are slots.
@@ -329,7 +323,7 @@ bool ContactStage::call_law(const Model& model, const MotionState& motion, const
     if (count > 0)
       law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
                              conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
-    chunk_totals_[chunk] = total({active_.data() + begin, count}, begin);
+    chunk_totals_[chunk] = close({active_.data() + begin, count}, begin);
   });
   return std::none_of(chunk_totals_.begin(), chunk_totals_.end(),
                       [](const ChunkTotals& chunk) { return chunk.short_of_room; });
@@ -345,12 +339,15 @@ std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end) {
   return count;
 }
 
-ContactStage::ChunkTotals ContactStage::total(std::span<const std::uint32_t> active, std::size_t begin) {
+/// What the law found becomes what it is told of the previous step next time, while it is at hand. What it
+/// was told this time takes the place in the reports, until the step can no longer be taken back.
+ContactStage::ChunkTotals ContactStage::close(std::span<const std::uint32_t> active, std::size_t begin) {
   ChunkTotals totals;
   totals.active = static_cast<std::uint32_t>(active.size());
   for (const std::uint32_t in_chunk : active) {
     const std::size_t i = begin + in_chunk;
-    const PairReport& report = pair_reports_[i];
+    BodyPair& pair = pairs_[i];
+    PairReport& report = pair_reports_[i];
     totals.stored += report.stored;
     totals.slip_loss += report.slip_loss;
     // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
@@ -358,34 +355,43 @@ ContactStage::ChunkTotals ContactStage::total(std::span<const std::uint32_t> act
         (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power_[i]))) / 2;
     if (!(report.penetration <= totals.penetration)) {
       totals.penetration = report.penetration;
-      totals.deepest_a = pairs_[i].a;
-      totals.deepest_b = pairs_[i].b;
+      totals.deepest_a = pair.a;
+      totals.deepest_b = pair.b;
     }
-    totals.short_of_room = totals.short_of_room || report.contact_count > pairs_[i].slot_capacity;
+    totals.short_of_room = totals.short_of_room || report.contact_count > pair.slot_capacity;
+    if (report.contact_count == 0 && pair.contact_count != 0) clear_loads(pair);
+    ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
+    std::swap(pair.contact_count, report.contact_count);
+    std::swap(damping_power_[i], report.damping_power);
   }
   return totals;
+}
+
+/// Before the law is called again for the same step.
+void ContactStage::take_back() {
+  for (std::size_t chunk = 0; chunk < chunk_totals_.size(); ++chunk) {
+    const std::size_t begin = chunk * pair_chunk;
+    for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
+      const std::size_t i = begin + active_[begin + k];
+      // A contact that only this call found leaves no loads behind.
+      if (pairs_[i].contact_count != 0 && pair_reports_[i].contact_count == 0) clear_loads(pairs_[i]);
+      ask_again_[i] = 0;
+      std::swap(pairs_[i].contact_count, pair_reports_[i].contact_count);
+      std::swap(damping_power_[i], pair_reports_[i].damping_power);
+    }
+  }
 }
 
 void ContactStage::make_room() {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     capacities_[i] = pairs_[i].slot_capacity;
-    if (pair_reports_[i].contact_count > capacities_[i]) capacities_[i] = 2 * pair_reports_[i].contact_count;
+    if (pairs_[i].contact_count > capacities_[i]) capacities_[i] = 2 * pairs_[i].contact_count;
   }
+  take_back();
   lay_out_slots(capacities_);
 }
 
-/// What the law found becomes what it is told of the previous step next time.
-ContactTotals ContactStage::close_step() {
-  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t) {
-    for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
-      const std::size_t i = begin + active_[begin + k];
-      const PairReport& report = pair_reports_[i];
-      if (report.contact_count == 0 && pairs_[i].contact_count != 0) clear_loads(pairs_[i]);
-      pairs_[i].contact_count = report.contact_count;
-      damping_power_[i] = report.damping_power;
-      ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
-    }
-  });
+ContactTotals ContactStage::totals() const {
   ContactTotals totals;
   for (const ChunkTotals& chunk : chunk_totals_) {
     totals.stored += chunk.stored;

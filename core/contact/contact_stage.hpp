@@ -93,8 +93,9 @@ class ContactStage {
     std::uint32_t active = 0;
   };
   std::uint32_t choose_active(std::size_t begin, std::size_t end);
-  ChunkTotals total(std::span<const std::uint32_t> active, std::size_t begin);
-  ContactTotals close_step();
+  ChunkTotals close(std::span<const std::uint32_t> active, std::size_t begin);
+  void take_back();
+  ContactTotals totals() const;
   void clear_loads(const BodyPair& pair);
   void add_loads(const Model& model, MotionState& motion);
   double stiffest_interface() const;
@@ -144,8 +145,8 @@ class ContactStage {
   std::vector<std::uint32_t> capacities_;
   std::vector<double> history_, next_history_;
   std::vector<ContactReport> reports_;
-  std::vector<PairReport> pair_reports_;
-  std::vector<double> load_x_, load_y_;          ///< and guard_loads more, which no law may touch
+  std::vector<PairReport> pair_reports_;  ///< of the last evaluation; see close() for what became of them
+  std::vector<double> load_x_, load_y_;   ///< and guard_loads more, which no law may touch
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
 };

@@ -24,9 +24,8 @@ struct PairSum {
   bool finite = true;
 };
 
-bool is_number(const PairReport& report) {
-  return std::isfinite(report.penetration + report.stored + report.slip_loss + report.damping_power +
-                       report.gap);
+bool is_number(const PairReport& report, double damping_power) {
+  return std::isfinite(report.penetration + report.stored + report.slip_loss + damping_power + report.gap);
 }
 
 }  // namespace
@@ -69,7 +68,8 @@ LawFault ContactStage::fault(const Model& model, const MotionState& motion) cons
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const BodyPair& pair = pairs_[i];
     if (pair.contact_count == 0 || (!island_.empty() && sleeps(pair))) continue;
-    if (!is_number(pair_reports_[i])) return {"a report that is no number", true, pair.a, pair.b};
+    if (!is_number(pair_reports_[i], damping_power_[i]))
+      return {"a report that is no number", true, pair.a, pair.b};
     const PairSum sum = sum_of(pair);
     if (!sum.finite) return {"a load that is no number", true, pair.a, pair.b};
     const double force = std::hypot(sum.x, sum.y), moment = std::abs(sum.moment);

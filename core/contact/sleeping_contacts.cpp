@@ -51,10 +51,10 @@ void ContactStage::keep_sleeping_history() {
 bool ContactStage::wake_touched() {
   std::vector<std::uint32_t> touched;
   for (const std::uint32_t i : border_) {
-    if (ask_again_[i] <= travelled_ && pair_reports_[i].contact_count > 0)
-      touched.push_back(std::max(island_[pairs_[i].a], island_[pairs_[i].b]));
+    if (pairs_[i].contact_count > 0) touched.push_back(std::max(island_[pairs_[i].a], island_[pairs_[i].b]));
   }
   if (touched.empty()) return false;
+  take_back();
   touched_.insert(touched_.end(), touched.begin(), touched.end());
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
