@@ -90,7 +90,10 @@ class DistributedContact {
         if (share > 0) normal_loads(law, batch.interfaces, sink, g, master, share, report);
       }
       report.penetration = std::max(report.penetration, penetration_);
-      if (cells_.empty()) continue;
+      if (cells_.empty()) {
+        write_nothing(batch, loads, pair, g, report);
+        continue;
+      }
       find_tangent();
       measure_arcs(g, batch.dt);
       normal_damping(sink, pair, batch.dt, report);
@@ -107,6 +110,23 @@ class DistributedContact {
         loads.reports[pair.slot_start + g] = contact_report(tangential, slip);
     }
     if (among_strips_ && last_resort_.load > 0) close_balance(sink, last_resort_);
+  }
+
+  /// An overlap of which rounding leaves no side a cell: nothing presses, and what was stored is lost.
+  void write_nothing(const ContactBatch& batch, const ContactLoads& loads, const BodyPair& pair,
+                     std::uint32_t group, PairReport& report) {
+    if (group >= pair.slot_capacity) return;
+    const std::uint32_t slot = pair.slot_start + group;
+    if constexpr (Law::frictional) {
+      FrictionHistory none{};
+      none.strip_a = carried_[group].strip_a;
+      none.strip_b = carried_[group].strip_b;
+      report.slip_loss += carried_[group].stored;
+      write_history(none, loads.history + slot * friction_doubles);
+    }
+    if (loads.reports == nullptr) return;
+    const Point centre = finder_.span(group, batch.dt).centre;
+    loads.reports[slot] = {centre.x, centre.y, 0, 0, 0, 0, 0, 0};
   }
 
   /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
