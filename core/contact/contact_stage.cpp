@@ -1,9 +1,11 @@
 #include "contact/contact_stage.hpp"
 
+#include "contact/room.hpp"
 #include "geometry/vanishing_depth.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -20,16 +22,15 @@ constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before 
 /// Share of the vanishing depth at the start that a law may count on: bodies strain. Measured once, for what
 /// a law does must not depend on when neighbours were sought.
 constexpr double clear_share = 0.8;
-constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
 constexpr std::size_t body_chunk = 64;
 
 void noop(void* /*object*/) noexcept {}
 
-/// An eighth more than is wanted: doubling would take twice the memory, no more at all new memory at most
-/// searches.
-template <class T>
-void make_room_in(std::vector<T>& values, std::size_t wanted) {
-  if (wanted > values.capacity()) values.reserve(wanted + wanted / 8);
+/// A few; a call would cost more than they do.
+void copy_doubles(const double* from, std::size_t count, double* to) {
+  std::size_t i = 0;
+  for (; i + 2 <= count; i += 2) std::memcpy(to + i, from + i, 2 * sizeof(double));
+  if (i < count) to[i] = from[i];
 }
 
 bool is_one_piece(const Model& model, const Body& body) {
@@ -56,6 +57,8 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       kernels_(kernels::block_kernels(level)),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
+      workspaces_(static_cast<std::size_t>(workers.threads())),
+      keeps_stored_(scene.sleep.has_value()),
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()) {
   for (const Body& body : model.bodies) {
@@ -135,7 +138,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const BodyPair& pair = pairs_[i];
     former_pairs_.push_back(
-        {pair.a, pair.b, pair.slot_start, pair.slot_capacity, pair.contact_count, damping_power_[i]});
+        {pair.a, pair.b, slot_of(i), pair.slot_capacity, pair.contact_count, damping_power_[i]});
   }
   pairs_.clear();
   piece_pairs_.clear();
@@ -202,8 +205,7 @@ void ContactStage::make_room_for_loads(const Model& model) {
     values->assign(loads, 0.0);  // where no pair touches they stay zero
     values->resize(loads + guard_loads, guard_load);
   }
-  pair_reports_.resize(pairs_.size());
-  active_.resize(pairs_.size());
+  if (keeps_stored_) stored_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
   sort_loads_by_body(model);
   describe_plain_pairs(model);
@@ -218,33 +220,6 @@ void ContactStage::describe_plain_pairs(const Model& model) {
     describe_plain(pair, piece_pairs_[pair.piece_pair_start], boundaries,
                    interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
   }
-}
-
-/// Gives every pair its contact slots, one pair after the other, and moves its history there.
-void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
-  std::uint32_t slots = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) slots += capacities[i];
-  next_history_.resize(std::size_t{slots} * history_doubles_);
-  std::vector<ContactReport> reports(island_.empty() ? 0 : slots);
-  std::uint32_t start = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    BodyPair& pair = pairs_[i];
-    if (!island_.empty())
-      std::copy_n(reports_.begin() + pair.slot_start, pair.contact_count, reports.begin() + start);
-    const std::size_t count = std::size_t{pair.contact_count} * history_doubles_;
-    const double* from = history_.data() + std::size_t{pair.slot_start} * history_doubles_;
-    std::copy(from, from + count, next_history_.data() + std::size_t{start} * history_doubles_);
-    pair.slot_start = start;
-    pair.slot_capacity = capacities[i];
-    start += capacities[i];
-  }
-  history_.swap(next_history_);
-  next_history_.resize(history_.size());
-  if (!island_.empty()) {
-    reports_.swap(reports);
-    keep_sleeping_history();
-  }
-  reports_.resize(slots);
 }
 
 /// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
@@ -272,10 +247,19 @@ void ContactStage::sort_loads_by_body(const Model& model) {
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return {};
   touched_.clear();
-  do {
-    while (!call_law(model, motion, conditions)) make_room();
-  } while (wake_touched());
-  history_.swap(next_history_);
+  chunk_totals_.assign(chunk_totals_.size(), {});
+  const auto close_chunk = [&](std::size_t chunk, std::span<const std::uint32_t> active, Workspace& found) {
+    close(chunk, active, found);
+  };
+  ask(model, motion, conditions, travelled_, close_chunk);
+  for (;;) {
+    if (short_of_room()) {
+      make_room();
+    } else if (!wake_touched()) {
+      break;
+    }
+    ask(model, motion, conditions, in_this_step, close_chunk);
+  }
 #ifdef TALUS_AUDIT
   // All loads were no numbers until the law wrote them; those of pairs apart are zero.
   for (const BodyPair& pair : pairs_) {
@@ -289,106 +273,134 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
 double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
                                             const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return 0;
+  chunk_totals_.assign(chunk_totals_.size(), {});
   interfaces_.value = former_interface_values_.data();
-  call_law(model, motion, conditions);
+  ask(model, motion, conditions, travelled_,
+      [&](std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
+        for (const std::uint32_t in_chunk : active) {
+          const BodyPair& pair = pairs_[chunk * pair_chunk + in_chunk];
+          const PairReport& report = found.reports[in_chunk];
+          chunk_totals_[chunk].stored += report.stored;
+          chunk_totals_[chunk].slip_loss += report.slip_loss;
+          // With other parameters a law may find contact where it finds none now.
+          if (report.contact_count != 0 && pair.contact_count == 0) clear_loads(pair);
+        }
+      });
   interfaces_.value = interface_values_.data();
   const ContactTotals found = totals();
-  take_back();
   return found.stored + found.slip_loss;
 }
 
-/// False when the law found more contacts somewhere than there are slots.
-bool ContactStage::call_law(const Model& model, const MotionState& motion, const Conditions& conditions) {
+/// Asks the law about the pairs whose time has come (see ask_again_). Calls each(chunk, pairs of it that were
+/// asked about, what the law said).
+template <class Each>
+void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
+                       double until, const Each& each) {
 #ifdef TALUS_AUDIT
   const double poison = std::numeric_limits<double>::quiet_NaN();
-  std::fill(next_history_.begin(), next_history_.end(), poison);
-  for (std::vector<double>* values : {&load_x_, &load_y_})
-    std::fill(values->begin(), values->end() - guard_loads, poison);
-  keep_sleeping_history();
+  for (Workspace& workspace : workspaces_)
+    std::fill(workspace.history.begin(), workspace.history.end(), poison);
+  if (until >= 0) {
+    for (std::vector<double>* values : {&load_x_, &load_y_})
+      std::fill(values->begin(), values->end() - guard_loads, poison);
+  }
 #endif
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
-  workers_.over(pairs_.size(), pair_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    const std::uint32_t count = choose_active(begin, end);
-    const ContactBatch batch{boundaries,
-                             interfaces_,
-                             pairs_.data() + begin,
-                             piece_pairs_.data(),
-                             history_.data(),
-                             active_.data() + begin,
-                             count,
-                             conditions.dt,
-                             conditions.hold_stick,
-                             conditions.bonds_form};
-    if (count > 0)
-      law_->evaluate(batch, {load_x_.data(), load_y_.data(), next_history_.data(),
-                             conditions.observed ? reports_.data() : nullptr, pair_reports_.data() + begin});
-    chunk_totals_[chunk] = close({active_.data() + begin, count}, begin);
-  });
-  return std::none_of(chunk_totals_.begin(), chunk_totals_.end(),
-                      [](const ChunkTotals& chunk) { return chunk.short_of_room; });
+  workers_.over(pairs_.size(), pair_chunk,
+                [&](std::size_t chunk, std::size_t begin, std::size_t end, std::size_t thread) {
+                  Workspace& found = workspaces_[thread];
+                  const std::uint32_t count = choose_active(begin, end, until, found.active);
+                  if (count == 0) return;
+                  const std::size_t slot = slot_base_[chunk];
+                  const ContactBatch batch{boundaries,
+                                           interfaces_,
+                                           pairs_.data() + begin,
+                                           piece_pairs_.data(),
+                                           history_.data() + slot * history_doubles_,
+                                           found.active.data(),
+                                           count,
+                                           conditions.dt,
+                                           conditions.hold_stick,
+                                           conditions.bonds_form};
+                  law_->evaluate(
+                      batch, {load_x_.data(), load_y_.data(), found.history.data(),
+                              conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
+                  each(chunk, std::span<const std::uint32_t>(found.active).first(count), found);
+                });
 }
 
 /// Pairs that were apart need no look until both bodies together may have closed the gap.
-std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end) {
+std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end, double until,
+                                          std::vector<std::uint32_t>& active) const {
   std::uint32_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
-    active_[begin + count] = static_cast<std::uint32_t>(i - begin);
-    count += ask_again_[i] <= travelled_ ? 1 : 0;
+    active[count] = static_cast<std::uint32_t>(i - begin);
+    count += ask_again_[i] <= until ? 1 : 0;
   }
   return count;
 }
 
-/// What the law found becomes what it is told of the previous step next time, while it is at hand. What it
-/// was told this time takes the place in the reports, until the step can no longer be taken back.
-ContactStage::ChunkTotals ContactStage::close(std::span<const std::uint32_t> active, std::size_t begin) {
-  ChunkTotals totals;
-  totals.active = static_cast<std::uint32_t>(active.size());
-  for (const std::uint32_t in_chunk : active) {
-    const std::size_t i = begin + in_chunk;
-    BodyPair& pair = pairs_[i];
-    PairReport& report = pair_reports_[i];
+/// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
+/// that is short of room is left as it was, to be asked about again.
+void ContactStage::close(std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
+  const std::size_t begin = chunk * pair_chunk;
+  const double travelled = travelled_;
+  const bool skin = skin_ > 0;
+  double *const ask_again = ask_again_.data() + begin, *const damping_power = damping_power_.data() + begin;
+  double* const stored = stored_.empty() ? nullptr : stored_.data() + begin;
+  double* const history = history_.data() + std::size_t{slot_base_[chunk]} * history_doubles_;
+  ChunkTotals totals = chunk_totals_[chunk];
+  totals.short_of_room = false;
+  double sound = 0;
+  for (const std::uint32_t i : active) {
+    BodyPair& pair = pairs_[begin + i];
+    const PairReport& report = found.reports[i];
+    if (report.contact_count > pair.slot_capacity) {
+      totals.short_of_room = true;
+      capacities_[begin + i] = 2 * report.contact_count;
+      ask_again[i] = in_this_step;
+      continue;
+    }
+    sound += (report.penetration + report.stored) + (report.slip_loss + report.damping_power);
     totals.stored += report.stored;
     totals.slip_loss += report.slip_loss;
+    if (stored != nullptr) stored[i] = report.stored;
+    if (report.contact_count == 0) {
+      if (pair.contact_count != 0) clear_loads(pair);
+      pair.contact_count = 0;
+      damping_power[i] = 0;
+      ask_again[i] = skin ? travelled + report.gap / 2 : 0;
+      continue;
+    }
     // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
     totals.damping_loss +=
-        (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power_[i]))) / 2;
+        (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power[i]))) / 2;
     if (!(report.penetration <= totals.penetration)) {
       totals.penetration = report.penetration;
       totals.deepest_a = pair.a;
       totals.deepest_b = pair.b;
     }
-    totals.short_of_room = totals.short_of_room || report.contact_count > pair.slot_capacity;
-    if (report.contact_count == 0 && pair.contact_count != 0) clear_loads(pair);
-    ask_again_[i] = report.contact_count == 0 && skin_ > 0 ? travelled_ + report.gap / 2 : 0;
-    std::swap(pair.contact_count, report.contact_count);
-    std::swap(damping_power_[i], report.damping_power);
+    pair.contact_count = report.contact_count;
+    damping_power[i] = report.damping_power;
+    ask_again[i] = 0;
+    const std::size_t slot = std::size_t{pair.slot_start} * history_doubles_;
+    copy_doubles(found.history.data() + slot, std::size_t{report.contact_count} * history_doubles_,
+                 history + slot);
   }
-  return totals;
+  if (!std::isfinite(sound)) totals.unsound = first_unsound(chunk, active, found);
+  chunk_totals_[chunk] = totals;
 }
 
-/// Before the law is called again for the same step.
-void ContactStage::take_back() {
-  for (std::size_t chunk = 0; chunk < chunk_totals_.size(); ++chunk) {
-    const std::size_t begin = chunk * pair_chunk;
-    for (std::uint32_t k = 0; k < chunk_totals_[chunk].active; ++k) {
-      const std::size_t i = begin + active_[begin + k];
-      // A contact that only this call found leaves no loads behind.
-      if (pairs_[i].contact_count != 0 && pair_reports_[i].contact_count == 0) clear_loads(pairs_[i]);
-      ask_again_[i] = 0;
-      std::swap(pairs_[i].contact_count, pair_reports_[i].contact_count);
-      std::swap(damping_power_[i], pair_reports_[i].damping_power);
-    }
+/// The first pair with a report that is no number.
+std::uint32_t ContactStage::first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
+                                          const Workspace& found) {
+  for (const std::uint32_t in_chunk : active) {
+    const PairReport& r = found.reports[in_chunk];
+    if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power))
+      return static_cast<std::uint32_t>(chunk * pair_chunk + in_chunk);
   }
-}
-
-void ContactStage::make_room() {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    capacities_[i] = pairs_[i].slot_capacity;
-    if (pairs_[i].contact_count > capacities_[i]) capacities_[i] = 2 * pairs_[i].contact_count;
-  }
-  take_back();
-  lay_out_slots(capacities_);
+  return no_pair;
 }
 
 ContactTotals ContactStage::totals() const {

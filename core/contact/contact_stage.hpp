@@ -67,15 +67,25 @@ class ContactStage {
   void set_asleep(std::span<const std::uint32_t> island);
   /// Islands that other bodies were found to touch by the last evaluate(), rising; it took them as awake.
   const std::vector<std::uint32_t>& touched() const { return touched_; }
-  /// What a pair evaluated last holds, J/m.
-  double stored_in(std::size_t pair) const { return pair_reports_[pair].stored; }
+  /// What a pair evaluated last holds, J/m; of scenes with sleep.
+  double stored_in(std::size_t pair) const { return stored_[pair]; }
 
   std::uint64_t searches() const { return searches_; }
   std::span<const BodyPair> pairs() const { return pairs_; }
-  std::span<const ContactReport> reports() const { return reports_; }
-  std::span<const double> history() const { return history_; }
+  /// [contact] of a pair, of a step that was observed.
+  std::span<const ContactReport> reports_of(std::size_t pair) const {
+    return {reports_.data() + slot_of(pair), pairs_[pair].contact_count};
+  }
+  /// [contact * doubles_per_contact] of a pair.
+  std::span<const double> history_of(std::size_t pair) const {
+    return {history_.data() + std::size_t{slot_of(pair)} * history_doubles_,
+            std::size_t{pairs_[pair].contact_count} * history_doubles_};
+  }
 
  private:
+  static constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
+  static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
+  static constexpr double in_this_step = -1;  ///< of ask_again_
   static constexpr std::size_t guard_loads = 8;
   static constexpr double guard_load = -1.2345678901234567e-300;
 
@@ -86,22 +96,37 @@ class ContactStage {
   bool fits(const Model& model) const;
   void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
+  void move_reports(std::span<const std::uint32_t> capacities);
+  void move_history(std::span<const std::uint32_t> capacities);
   void make_room();
-  bool call_law(const Model& model, const MotionState& motion, const Conditions& conditions);
+  bool short_of_room() const;
+  std::uint32_t slot_of(std::size_t pair) const {
+    return slot_base_[pair / pair_chunk] + pairs_[pair].slot_start;
+  }
+  /// What a law says of a chunk of pairs.
+  struct Workspace {
+    std::vector<std::uint32_t> active = std::vector<std::uint32_t>(pair_chunk);
+    std::vector<PairReport> reports = std::vector<PairReport>(pair_chunk);
+    std::vector<double> history;  ///< of the slots of the chunk
+  };
   struct ChunkTotals : ContactTotals {
     bool short_of_room = false;
-    std::uint32_t active = 0;
+    std::uint32_t unsound = no_pair;  ///< a pair with a report that is no number
   };
-  std::uint32_t choose_active(std::size_t begin, std::size_t end);
-  ChunkTotals close(std::span<const std::uint32_t> active, std::size_t begin);
-  void take_back();
+  template <class Each>
+  void ask(const Model& model, const MotionState& motion, const Conditions& conditions, double until,
+           const Each& each);
+  std::uint32_t choose_active(std::size_t begin, std::size_t end, double until,
+                              std::vector<std::uint32_t>& active) const;
+  void close(std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found);
+  static std::uint32_t first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
+                                     const Workspace& found);
   ContactTotals totals() const;
   void clear_loads(const BodyPair& pair);
   void add_loads(const Model& model, MotionState& motion);
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
   void hold_sleeping_pairs();
-  void keep_sleeping_history();
   bool wake_touched();
   void add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
   double master_share(std::uint32_t a, std::uint32_t b) const;
@@ -123,6 +148,9 @@ class ContactStage {
   std::uint64_t searches_ = 0;
   std::uint32_t history_doubles_ = 0;
 
+  std::vector<Workspace> workspaces_;  ///< [thread]
+  bool keeps_stored_;
+
   NeighbourSearch search_;
   std::vector<Candidate> candidates_;
   std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
@@ -138,15 +166,17 @@ class ContactStage {
   std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
   std::vector<std::uint32_t> next_body_load_;    ///< [body] while body_loads_ is filled
   std::vector<ChunkTotals> chunk_totals_;
-  double travelled_ = 0;               ///< m, bound of what a corner has moved since the last search
-  std::vector<double> ask_again_;      ///< [pair] m, of travelled_
-  std::vector<std::uint32_t> active_;  ///< pairs a law is to be asked about, chunk by chunk of pairs
+  double travelled_ = 0;  ///< m, bound of what a corner has moved since the last search
+  /// [pair] m of travelled_, when a law is to be asked about it.
+  std::vector<double> ask_again_;
   std::vector<double> damping_power_;  ///< [pair] J/m of the last step
+  std::vector<double> stored_;         ///< [pair] J/m, if keeps_stored_
   std::vector<std::uint32_t> capacities_;
-  std::vector<double> history_, next_history_;
-  std::vector<ContactReport> reports_;
-  std::vector<PairReport> pair_reports_;  ///< of the last evaluation; see close() for what became of them
-  std::vector<double> load_x_, load_y_;   ///< and guard_loads more, which no law may touch
+  /// [chunk of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
+  std::vector<std::uint32_t> slot_base_{0};
+  std::vector<double> history_;
+  std::vector<ContactReport> reports_;           ///< [slot] of the last step that was observed
+  std::vector<double> load_x_, load_y_;          ///< and guard_loads more, which no law may touch
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
 };

@@ -14,34 +14,41 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive(damping_power_);
   archive(history_);
   archive(reports_);
-  archive(pair_reports_);
   archive(island_);
   if (!archive.reading()) return;
   if (!fits(model)) Archive::refuse();
-  capacities_.resize(pairs_.size());
-  next_history_.resize(history_.size());
+  capacities_.clear();
+  std::uint32_t slot = 0;
+  for (BodyPair& pair : pairs_) {
+    pair.slot_start = slot;
+    slot += pair.slot_capacity;
+    capacities_.push_back(pair.slot_capacity);
+  }
   make_room_for_loads(model);
+  lay_out_slots(capacities_);
   if (!island_.empty()) hold_sleeping_pairs();
 }
 
 /// Whether all indices lead into the arrays of this scene.
 bool ContactStage::fits(const Model& model) const {
   const std::size_t pairs = pairs_.size(), slots = reports_.size();
-  if (ask_again_.size() != pairs || damping_power_.size() != pairs || pair_reports_.size() != pairs ||
+  if (ask_again_.size() != pairs || damping_power_.size() != pairs ||
       history_.size() != slots * history_doubles_ ||
       !(island_.empty() || island_.size() == model.bodies.size()))
     return false;
   for (const PiecePair& pieces : piece_pairs_) {
     if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
   }
+  std::size_t taken = 0;
   for (const BodyPair& pair : pairs_) {
+    taken += pair.slot_capacity;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
         pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
         (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1) ||
-        pair.contact_count > pair.slot_capacity || std::size_t{pair.slot_start} + pair.slot_capacity > slots)
+        pair.contact_count > pair.slot_capacity)
       return false;
   }
-  return true;
+  return taken == slots;
 }
 
 }  // namespace talus

@@ -24,10 +24,6 @@ struct PairSum {
   bool finite = true;
 };
 
-bool is_number(const PairReport& report, double damping_power) {
-  return std::isfinite(report.penetration + report.stored + report.slip_loss + damping_power + report.gap);
-}
-
 }  // namespace
 
 /// Of the pairs that were evaluated last. Looks at loads only where the host takes them from.
@@ -37,6 +33,11 @@ LawFault ContactStage::fault(const Model& model, const MotionState& motion) cons
       if (std::bit_cast<std::uint64_t>((*loads)[i]) != std::bit_cast<std::uint64_t>(guard_load))
         return {"a load written past the last corner of all pairs"};
     }
+  }
+  for (const ChunkTotals& chunk : chunk_totals_) {
+    if (chunk.unsound == no_pair) continue;
+    const BodyPair& pair = pairs_[chunk.unsound];
+    return {"a report that is no number", true, pair.a, pair.b};
   }
   const auto sum_of = [&](const BodyPair& pair) {
     PairSum sum;
@@ -65,11 +66,8 @@ LawFault ContactStage::fault(const Model& model, const MotionState& motion) cons
     return sum;
   };
   const double stiffest = stiffest_interface();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const BodyPair& pair = pairs_[i];
+  for (const BodyPair& pair : pairs_) {
     if (pair.contact_count == 0 || (!island_.empty() && sleeps(pair))) continue;
-    if (!is_number(pair_reports_[i], damping_power_[i]))
-      return {"a report that is no number", true, pair.a, pair.b};
     const PairSum sum = sum_of(pair);
     if (!sum.finite) return {"a load that is no number", true, pair.a, pair.b};
     const double force = std::hypot(sum.x, sum.y), moment = std::abs(sum.moment);

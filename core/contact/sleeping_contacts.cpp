@@ -31,19 +31,8 @@ void ContactStage::hold_sleeping_pairs() {
       damping_power_[i] = 0;
       continue;
     }
-    if (ask_again_[i] == asleep) ask_again_[i] = 0;
+    if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;
     if (!island_.empty() && (island_[pairs_[i].a] != 0 || island_[pairs_[i].b] != 0)) border_.push_back(i);
-  }
-  keep_sleeping_history();
-}
-
-/// The arrays of history change places in each step; contacts that are not evaluated have theirs in both.
-void ContactStage::keep_sleeping_history() {
-  for (const BodyPair& pair : pairs_) {
-    if (!sleeps(pair)) continue;
-    const auto start = static_cast<std::ptrdiff_t>(std::size_t{pair.slot_start} * history_doubles_);
-    std::copy_n(history_.begin() + start, std::size_t{pair.contact_count} * history_doubles_,
-                next_history_.begin() + start);
   }
 }
 
@@ -54,7 +43,6 @@ bool ContactStage::wake_touched() {
     if (pairs_[i].contact_count > 0) touched.push_back(std::max(island_[pairs_[i].a], island_[pairs_[i].b]));
   }
   if (touched.empty()) return false;
-  take_back();
   touched_.insert(touched_.end(), touched.begin(), touched.end());
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());

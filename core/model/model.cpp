@@ -54,29 +54,6 @@ void add_pieces(Model& model, const SceneBody& scene_body, const Body& body, std
   }
 }
 
-/// The boundary of a body that moves as a whole.
-void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index) {
-  Body& body = model.bodies[index];
-  body.side_begin = static_cast<std::uint32_t>(model.sides.size());
-  const auto append = [&](const Loop& loop) {
-    const auto first = static_cast<std::uint32_t>(model.sides.size());
-    const auto count = static_cast<std::uint32_t>(loop.vertices.size());
-    const auto point = [&](std::uint32_t i) {
-      const Vec2 at = loop.vertices[i % count];
-      return MaterialPoint{index, {at.x - body.centre.x, at.y - body.centre.y}, {}};
-    };
-    for (std::uint32_t i = 0; i < count; ++i) {
-      model.sides.push_back({point(i), point(i + 1), loop.surface_class[i]});
-      model.next_side.push_back(first + (i + 1) % count);
-      model.previous_side.push_back(first + (i + count - 1) % count);
-      model.side_size.push_back(body.width);
-    }
-  };
-  append(scene_body.outer);
-  for (const Loop& hole : scene_body.holes) append(hole);
-  body.side_end = static_cast<std::uint32_t>(model.sides.size());
-}
-
 void add_element_of_block(Model& model, std::uint32_t index) {
   Element element;
   element.body = index;
@@ -134,7 +111,6 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
     add_strips(model, index);
   } else {
     add_pieces(model, scene_body, body, index);
-    if (!scene_body.fixed) add_sides(model, scene_body, index);
   }
   body.piece_end = static_cast<std::uint32_t>(model.piece_body.size());
   body.corner_end = static_cast<std::uint32_t>(model.surface.size());
@@ -212,18 +188,37 @@ Carrier Model::carrier(const Element& element, Vec2 reference) const {
   return result;
 }
 
+std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, std::uint32_t index) {
+  const Body& body = model.bodies[index];
+  if (model.covered(index))
+    return {model.sides.begin() + body.side_begin, model.sides.begin() + body.side_end};
+  std::vector<BoundarySide> sides;
+  const auto append = [&](const Loop& loop) {
+    const std::size_t count = loop.vertices.size();
+    const auto point = [&](std::size_t i) {
+      const Vec2 at = loop.vertices[i % count];
+      return MaterialPoint{index, {at.x - body.centre.x, at.y - body.centre.y}, {}};
+    };
+    for (std::size_t i = 0; i < count; ++i) sides.push_back({point(i), point(i + 1), loop.surface_class[i]});
+  };
+  append(scene.bodies[index].outer);
+  for (const Loop& hole : scene.bodies[index].holes) append(hole);
+  return sides;
+}
+
 Model build_model(const Scene& scene) {
   Model model;
   model.piece_start.push_back(0);
   model.bodies.reserve(scene.bodies.size());
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) add_body(model, scene, i);
   sort_elements(model, scene);
-  for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   measure_widths(model);
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (model.moves(i)) model.moving_bodies.push_back(i);
     if (model.covered(i)) model.covered_bodies.push_back(i);
   }
+  if (model.covered_bodies.empty()) model.element_region.clear();
+  for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   const auto fit = [](auto&... grown) { (grown.shrink_to_fit(), ...); };
   fit(model.reference_x, model.reference_y, model.surface, model.cut, model.corner_body, model.piece_start,
       model.piece_body, model.is_strip, model.piece_strip, model.strips, model.competitors, model.sides,

@@ -78,7 +78,7 @@ struct Body {
   double contact_depth = std::numeric_limits<double>::infinity();  ///< m, how deep contact can be seen
   std::uint32_t corner_begin = 0, corner_end = 0;
   std::uint32_t piece_begin = 0, piece_end = 0;
-  std::uint32_t side_begin = 0, side_end = 0;        ///< boundary sides of a moving body
+  std::uint32_t side_begin = 0, side_end = 0;        ///< covered: sides of its boundary
   std::uint32_t patch_begin = 0, patch_end = 0;      ///< covered: its patches
   std::uint32_t steady_begin = 0, steady_end = 0;    ///< covered: its steadied patches
   std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
@@ -114,7 +114,7 @@ struct Model {
   std::vector<Strip> strips;
   std::vector<std::uint32_t> competitors;  ///< sides that a strip shares its ground with
 
-  std::vector<BoundarySide> sides;  ///< of the moving bodies, body after body, loop after loop
+  std::vector<BoundarySide> sides;  ///< of the covered bodies, body after body, loop after loop
   std::vector<std::uint32_t> next_side, previous_side;  ///< [side] around its loop
   std::vector<double>
       side_size;  ///< [side] m, side of an equilateral triangle as large as the element's patches
@@ -130,8 +130,9 @@ struct Model {
   std::vector<Element> elements;
   std::vector<std::uint32_t> material_element_start;  ///< [material + 1]
   std::vector<std::uint32_t> body_element;            ///< elements body after body, as the cover made them
-  std::vector<std::array<double, 4>> element_box;     ///< [element] m, least x and y, greatest x and y
-  std::vector<std::vector<Ring>> element_region;      ///< [element] rings, m, X; empty for an affine block
+  // Both empty where no body is covered.
+  std::vector<std::array<double, 4>> element_box;  ///< [element] m, least x and y, greatest x and y
+  std::vector<std::vector<Ring>> element_region;   ///< [element] rings, m, X; empty for an affine block
 
   double smallest_width = 0;  ///< m, of the moving bodies
   double mean_width = 0;
@@ -148,6 +149,9 @@ struct Model {
   std::uint32_t element_at(std::uint32_t body, Vec2 reference) const;
   Carrier carrier(const Element& element, Vec2 reference) const;
 };
+
+/// The sides of a moving body's boundary, loop after loop.
+std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, std::uint32_t body);
 
 /// Throws BodyRefused when a body cannot have its cover or be cut, PluginError when a builder makes what is
 /// no cover.

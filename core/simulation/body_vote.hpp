@@ -45,7 +45,7 @@ struct BodyVote {
   double spring_lambda = 0;   ///< of its springs alone
 };
 
-/// [side of the body, from Body::side_begin]
+/// [side of boundary_of() the body]
 using SpringsOfSides = std::vector<SideSprings>;
 
 /// A body that moves as a whole: 6 or 3 unknowns, solved outright.

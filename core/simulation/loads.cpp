@@ -28,38 +28,38 @@ Vec2 between(Vec2 p, Vec2 q, double lever) {
 
 /// Calls visit with each Gauss point of the sides of a body's surface.
 template <class Visit>
-void Loads::visit_sides(const Model& model, std::uint32_t body, std::uint32_t surface_class,
-                        const Visit& visit) const {
+void Loads::visit_sides(const Scene& scene, const Model& model, std::uint32_t body,
+                        std::uint32_t surface_class, const Visit& visit) {
   const double outer = std::sqrt(0.15);
   const std::array<double, gauss_points> lever{0.5 - outer, 0.5, 0.5 + outer};
   const std::array<double, gauss_points> share{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  const Body& b = model.bodies[body];
-  for (std::uint32_t s = b.side_begin; s < b.side_end; ++s) {
-    const BoundarySide& side = model.sides[s];
+  const Vec2 centre = model.bodies[body].centre;
+  for (const BoundarySide& side : boundary_of(scene, model, body)) {
     if (side.surface != surface_class) continue;
+    const auto index = static_cast<std::uint32_t>(sides_.size());
+    sides_.push_back(side);
     for (std::size_t g = 0; g < gauss_points; ++g) {
       const Vec2 at = between(side.start.reference, side.end.reference, lever[g]);
-      visit(SideShare{s, lever[g], share[g], {b.centre.x + at.x, b.centre.y + at.y}});
+      visit(SideShare{index, lever[g], share[g], {centre.x + at.x, centre.y + at.y}});
     }
   }
 }
 
 Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& model)
     : surface_loads_(settings.surface_loads), prescribed_(settings.prescribed) {
-  const bool on_sides = !surface_loads_.empty() || !prescribed_.empty() || !settings.absorbing.empty();
-  if (on_sides) sides_ = model.sides;
   for (const PointLoad& load : settings.loads) {
     const Vec2 centre = model.bodies[load.body].centre;
     const Vec2 reference{load.point.x - centre.x, load.point.y - centre.y};
     points_.push_back({model.point(load.body, reference), load.point, load.force, {}});
   }
   for (std::uint32_t i = 0; i < surface_loads_.size(); ++i) {
-    visit_sides(model, surface_loads_[i].body, surface_loads_[i].surface_class, [&](const SideShare& at) {
-      surface_points_.push_back({at, i, {}});
-    });
+    visit_sides(scene, model, surface_loads_[i].body, surface_loads_[i].surface_class,
+                [&](const SideShare& at) {
+                  surface_points_.push_back({at, i, {}});
+                });
   }
   for (std::uint32_t i = 0; i < prescribed_.size(); ++i) {
-    visit_sides(model, prescribed_[i].body, prescribed_[i].surface_class, [&](const SideShare& at) {
+    visit_sides(scene, model, prescribed_[i].body, prescribed_[i].surface_class, [&](const SideShare& at) {
       support_points_.push_back({at, i});
     });
   }
@@ -75,7 +75,7 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
     make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
     const double pressure = std::sqrt(material.density * tangent[0]);
     const double shear = std::sqrt(material.density * tangent[8]);
-    visit_sides(model, absorbing.body, absorbing.surface_class, [&](const SideShare& at) {
+    visit_sides(scene, model, absorbing.body, absorbing.surface_class, [&](const SideShare& at) {
       absorbing_points_.push_back({at, pressure, shear, {}});
     });
   }

@@ -44,9 +44,9 @@ class Loads {
   static constexpr std::size_t gauss_points = 3;  ///< per side: exact for tractions up to degree 4 along it
   /// A part of a side around a Gauss point.
   struct SideShare {
-    std::uint32_t side;
-    double lever;  ///< 0 at the start of the side, 1 at its end
-    double share;  ///< of the length of the side
+    std::uint32_t side;  ///< index into sides_
+    double lever;        ///< 0 at the start of the side, 1 at its end
+    double share;        ///< of the length of the side
     Vec2 scene_point;
   };
   struct SurfacePoint {
@@ -68,8 +68,8 @@ class Loads {
   };
 
   template <class Visit>
-  void visit_sides(const Model& model, std::uint32_t body, std::uint32_t surface_class,
-                   const Visit& visit) const;
+  void visit_sides(const Scene& scene, const Model& model, std::uint32_t body, std::uint32_t surface_class,
+                   const Visit& visit);
   void work_through(Worker& worker, Vec2 force, Vec2 moved);
   void apply_points(MotionState& motion, double time, double dt);
   void apply_surface_loads(MotionState& motion, double time, double dt);
@@ -81,7 +81,7 @@ class Loads {
 
   std::vector<SurfaceLoad> surface_loads_;
   std::vector<PrescribedSurface> prescribed_;
-  std::vector<BoundarySide> sides_;
+  std::vector<BoundarySide> sides_;  ///< that something acts on
   std::vector<Point> points_;
   std::vector<SurfacePoint> surface_points_;
   std::vector<SupportPoint> support_points_;

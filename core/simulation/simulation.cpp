@@ -87,8 +87,10 @@ bool Simulation::advance(const Pause& pause) {
   if (!s.started) {
     s.started = true;
     s.set_initial_velocities();
-    s.start = s.motion.bodies;
-    s.start_displacement = s.motion.patch_displacement;
+    if (s.scene.settle) {
+      s.start = s.motion.bodies;
+      s.start_displacement = s.motion.patch_displacement;
+    }
     for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = s.motion.bodies[i].h;
     s.begin(output_time(1));
     s.warn_of_large_step();
@@ -195,13 +197,12 @@ std::string Simulation::state_hash() const {
     const Vec2 d = state_->motion.patch_displacement[p], v = state_->motion.patch_velocity[p];
     state.insert(state.end(), {d.x, d.y, v.x, v.y});
   }
-  const std::uint32_t doubles =
-      state_->contacts.law() != nullptr ? state_->contacts.law()->doubles_per_contact() : 0;
-  for (const BodyPair& pair : state_->contacts.pairs()) {
+  const std::span<const BodyPair> pairs = state_->contacts.pairs();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const BodyPair& pair = pairs[i];
     if (pair.contact_count == 0) continue;
     state.insert(state.end(), {static_cast<double>(pair.a), static_cast<double>(pair.b)});
-    const auto history = state_->contacts.history().subspan(std::size_t{pair.slot_start} * doubles,
-                                                            std::size_t{pair.contact_count} * doubles);
+    const auto history = state_->contacts.history_of(i);
     state.insert(state.end(), history.begin(), history.end());
   }
   return hash_of_bytes({reinterpret_cast<const char*>(state.data()), state.size() * sizeof(double)});
@@ -217,7 +218,7 @@ Motion Simulation::body_motion(std::size_t body) const {
     const double share = s.model.patch_mass[p] / b.mass;
     const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
     add(now, s.motion.patch_displacement[p]);
-    add(start, s.start_displacement[p]);
+    if (s.scene.settle) add(start, s.start_displacement[p]);
     add(speed, s.at_time.patches[p]);
   }
   const std::array<double, 3> stress = s.deformation.cauchy(s.model, index);
@@ -241,12 +242,12 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
     const std::uint32_t element = s.model.element_at(index, reference);
     const Carrier carrier = s.model.carrier(s.model.elements[element], reference);
     now = carried(carrier, s.motion.patch_displacement);
-    start = carried(carrier, s.start_displacement);
+    start = s.displacement_at_start(carrier);
     speed = carried(carrier, s.at_time.patches);
     stress = s.deformation.cauchy_of_element(element);
   } else {
     now = displacement(s.motion.bodies[index], reference);
-    start = displacement(s.start[index], reference);
+    start = s.displacement_at_start(index, reference);
     speed = velocity(s.at_time.bodies[index], reference);
     stress = s.deformation.cauchy(s.model, index);
   }
@@ -285,7 +286,7 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
       for (const Vec2 at : ring) {
         const Carrier carrier = s.model.carrier(s.model.elements[element], at);
         const Vec2 now = carried(carrier, s.motion.patch_displacement),
-                   start = carried(carrier, s.start_displacement);
+                   start = s.displacement_at_start(carrier);
         points.push_back({{b.centre.x + at.x + now.x, b.centre.y + at.y + now.y},
                           {now.x - start.x, now.y - start.y},
                           carried(carrier, s.at_time.patches)});
@@ -321,12 +322,12 @@ std::size_t Simulation::pair_count() const {
 std::vector<Contact> Simulation::contacts() const {
   std::vector<Contact> result;
   const State& s = *state_;
-  for (const BodyPair& pair : s.contacts.pairs()) {
+  for (std::size_t i = 0; i < s.contacts.pairs().size(); ++i) {
+    const BodyPair& pair = s.contacts.pairs()[i];
     const Vec2 frame = s.model.bodies[pair.a].centre;
     const std::uint32_t a = s.numbering.outside(pair.a), b = s.numbering.outside(pair.b);
     const double sign = a <= b ? 1 : -1;
-    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
-      const ContactReport& r = s.contacts.reports()[pair.slot_start + i];
+    for (const ContactReport& r : s.contacts.reports_of(i)) {
       result.push_back({std::min(a, b),
                         std::max(a, b),
                         {frame.x + r.x, frame.y + r.y},

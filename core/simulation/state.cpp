@@ -44,8 +44,8 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       votes(scene, stage, model, contacts),
       critical(votes.anyhow()),
       at_time{std::vector<BodyMotion>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
-      start(model.bodies.size()),
-      start_displacement(model.patch_star.size()),
+      start(scene.settle ? model.bodies.size() : 0),
+      start_displacement(scene.settle ? model.patch_star.size() : 0),
       rotation(model.bodies.size(), 0.0),
       last_turn(model.bodies.size()),
       profile(settings.profile) {
@@ -412,6 +412,13 @@ void Simulation::State::bring_rotation_up_to_date() {
     rotation[i] += std::atan2(s * c0 - c * s0, c * c0 + s * s0);
     last_turn[i] = now;
   }
+}
+
+Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
+  return start.empty() ? Vec2{} : displacement(start[body], reference);
+}
+Vec2 Simulation::State::displacement_at_start(const Carrier& carrier) const {
+  return start.empty() ? Vec2{} : carried(carrier, start_displacement);
 }
 
 void Simulation::State::set_initial_velocities() {

@@ -63,8 +63,9 @@ struct Simulation::State {
   CriticalStep planned_with{};  ///< the bound then
 
   VelocitiesAtStep at_time;
-  std::vector<BodyMotion> start;         ///< motion at t = 0, which displacements count from
-  std::vector<Vec2> start_displacement;  ///< [patch] likewise
+  // Motion at t = 0, which displacements count from; empty where nothing settles.
+  std::vector<BodyMotion> start;
+  std::vector<Vec2> start_displacement;  ///< [patch]
   std::size_t stages_begun = 0;
   bool interfaces_changed = false;  ///< by a stage, for the coming evaluation of contacts
   Vec2 last_gravity;                ///< m/s², at t_{n−1}
@@ -107,6 +108,8 @@ struct Simulation::State {
   void warn_of_large_step();
   void warn_of_initial_overlap();
   void bring_rotation_up_to_date();
+  Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
+  Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();
   std::string place(std::uint32_t body) const;
 

@@ -114,20 +114,18 @@ double impedance(const Scene& scene, std::uint32_t body) {
 SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, const Model& model,
                           const ContactStage& contacts, const Crowd& crowd, std::uint32_t index) {
   const Body& body = model.bodies[index];
-  SpringsOfSides springs(body.side_end - body.side_begin);
+  const std::vector<BoundarySide> sides = boundary_of(scene, model, index);
+  SpringsOfSides springs(sides.size());
   const auto on_surface = [&](std::uint32_t surface, const auto& visit) {
-    for (std::size_t i = 0; i < springs.size(); ++i) {
-      const BoundarySide& side = model.sides[body.side_begin + i];
-      if (side.surface == surface) visit(springs[i], length_of(side));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (sides[i].surface == surface) visit(springs[i], length_of(sides[i]));
     }
   };
   if (contacts.law() != nullptr) {
     const Meetings met = crowd.met_by(index);
     const bool spread = (scene.contact.component->component->traits & trait::spread_springs) != 0;
-    for (std::size_t i = 0; i < springs.size(); ++i) {
-      const BoundarySide& side = model.sides[body.side_begin + i];
-      springs[i] = stiffest_meeting(body, side.surface, length_of(side), contacts, met, spread);
-    }
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      springs[i] = stiffest_meeting(body, sides[i].surface, length_of(sides[i]), contacts, met, spread);
   }
   for (const PrescribedSurface& prescribed : settings.prescribed) {
     if (prescribed.body != index) continue;
@@ -171,6 +169,7 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
                    const ContactStage& contacts) {
   const Crowd crowd(model, scene.surfaces.size());
+  ballots_.reserve(model.moving_bodies.size());
   std::vector<std::size_t> different;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;

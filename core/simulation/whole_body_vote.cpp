@@ -77,8 +77,9 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
   Elastic elastic{zero, zero};
   if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);
   Eigen::MatrixXd stiffness = elastic.stiffness, damping = elastic.damping;
+  const std::vector<BoundarySide> sides = boundary_of(scene, model, index);
   for (std::size_t i = 0; i < springs.size(); ++i) {
-    const BoundarySide& side = model.sides[body.side_begin + i];
+    const BoundarySide& side = sides[i];
     const Vec2 start = side.start.reference, end = side.end.reference;
     const Eigen::Vector2d along = Eigen::Vector2d(end.x - start.x, end.y - start.y).normalized();
     const Eigen::Vector2d across(along.y(), -along.x());

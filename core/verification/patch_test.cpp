@@ -49,7 +49,7 @@ PatchTest patch_test(const Scene& scene, double modulus, double ratio) {
   }
 
   MotionState loads(model);
-  for (const BoundarySide& side : model.sides) {
+  for (const BoundarySide& side : boundary_of(scene, model, 0)) {
     const Vec2 from = side.start.reference, to = side.end.reference;
     const Vec2 outward{to.y - from.y, from.x - to.x};  // times the length of the side
     const Vec2 half{(p[0] * outward.x + p[2] * outward.y) / 2, (p[2] * outward.x + p[1] * outward.y) / 2};

@@ -45,9 +45,7 @@ class RecordedStep {
 
   /// The calls, as long as this object stands still.
   std::vector<LawCall> calls() {
-    history_.resize(slots_ * doubles_);
     for (std::vector<double>* loads : {&load_x_, &load_y_}) loads->resize(loads_);
-    next_history_.resize(slots_ * doubles_);
     std::vector<LawCall> result;
     for (Batch& each : batches_) {
       each.reports.resize(each.pairs.size());
@@ -57,10 +55,10 @@ class RecordedStep {
       batch.interfaces.value = values_.data();
       batch.pairs = each.pairs.data();
       batch.piece_pairs = piece_pairs_.data();
-      batch.history = history_.data();
+      batch.history = each.history.data();
       batch.active = each.active.data();
       result.push_back(
-          {batch, {load_x_.data(), load_y_.data(), next_history_.data(), nullptr, each.reports.data()}});
+          {batch, {load_x_.data(), load_y_.data(), each.next_history.data(), nullptr, each.reports.data()}});
     }
     return result;
   }
@@ -69,7 +67,8 @@ class RecordedStep {
   std::vector<double> written() const {
     std::vector<double> all = load_x_;
     all.insert(all.end(), load_y_.begin(), load_y_.end());
-    all.insert(all.end(), next_history_.begin(), next_history_.end());
+    for (const Batch& each : batches_)
+      all.insert(all.end(), each.next_history.begin(), each.next_history.end());
     return all;
   }
 
@@ -85,6 +84,7 @@ class RecordedStep {
     std::vector<BodyPair> pairs;
     std::vector<std::uint32_t> active;
     std::vector<PairReport> reports{};
+    std::vector<double> history{}, next_history{};
   };
 
   template <class T>
@@ -93,14 +93,14 @@ class RecordedStep {
   }
 
   /// The parts of the host's arrays that the pairs of a batch lead to.
-  void copy_arrays(const Batch& batch) {
+  void copy_arrays(Batch& batch) {
     const Boundaries& shown = batch.as_given.boundaries;
     const Interfaces& interfaces = batch.as_given.interfaces;
-    std::size_t pieces = 0, piece_pairs = 0;
+    std::size_t pieces = 0, piece_pairs = 0, slots = 0;
     for (const std::uint32_t i : batch.active) {
       const BodyPair& pair = batch.pairs[i];
       piece_pairs = std::max<std::size_t>(piece_pairs, pair.piece_pair_end);
-      slots_ = std::max<std::size_t>(slots_, pair.slot_start + pair.slot_capacity);
+      slots = std::max<std::size_t>(slots, pair.slot_start + pair.slot_capacity);
       for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
         const PiecePair& met = batch.as_given.piece_pairs[p];
         pieces = std::max<std::size_t>({pieces, met.a + 1, met.b + 1});
@@ -115,7 +115,8 @@ class RecordedStep {
     copy_up_to(corners_, shown.corner, shown.piece_start[pieces]);
     copy_up_to(is_strip_, shown.is_strip, pieces);
     copy_up_to(clear_depth_, shown.clear_depth, pieces);
-    copy_up_to(history_, batch.as_given.history, slots_ * doubles_);
+    batch.history.assign(batch.as_given.history, batch.as_given.history + slots * doubles_);
+    batch.next_history.resize(slots * doubles_);
     const std::size_t surfaces = interfaces.surface_count;
     copy_up_to(rows_, interfaces.row, surfaces * surfaces);
     const std::size_t last_row = *std::max_element(rows_.begin(), rows_.end());
@@ -125,13 +126,13 @@ class RecordedStep {
   const BodyPair* first_ = nullptr;
   bool complete_ = false;
   std::uint32_t doubles_ = 0;
-  std::size_t slots_ = 0, loads_ = 0;
+  std::size_t loads_ = 0;
   std::vector<Batch> batches_;
   std::vector<BoundaryCorner> corners_;
   std::vector<PiecePair> piece_pairs_;
   std::vector<std::uint32_t> piece_start_, rows_;
   std::vector<std::uint8_t> is_strip_;
-  std::vector<double> clear_depth_, values_, history_, next_history_, load_x_, load_y_;
+  std::vector<double> clear_depth_, values_, load_x_, load_y_;
 };
 
 RecordedStep* recorder = nullptr;                   ///< where the law under way is recorded

@@ -32,17 +32,16 @@ struct HeldStage {
     return contacts.evaluate(model, motion, {dt, true, false});
   }
 
-  const BodyPair& pair(std::uint32_t a, std::uint32_t b) const {
-    for (const BodyPair& pair : contacts.pairs()) {
-      if (pair.a == a && pair.b == b) return pair;
+  std::size_t number(std::uint32_t a, std::uint32_t b) const {
+    for (std::size_t i = 0; i < contacts.pairs().size(); ++i) {
+      if (contacts.pairs()[i].a == a && contacts.pairs()[i].b == b) return i;
     }
     throw std::logic_error("no such pair");
   }
+  const BodyPair& pair(std::uint32_t a, std::uint32_t b) const { return contacts.pairs()[number(a, b)]; }
 
   std::vector<double> history(std::uint32_t a, std::uint32_t b) const {
-    const BodyPair& p = pair(a, b);
-    const std::size_t doubles = contacts.law()->doubles_per_contact();
-    const auto found = contacts.history().subspan(p.slot_start * doubles, p.contact_count * doubles);
+    const auto found = contacts.history_of(number(a, b));
     return {found.begin(), found.end()};
   }
 };
