@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
@@ -20,10 +21,12 @@ void print_help(const Usage& usage) {
   if (!usage.examples.empty()) fmt::print("\nExamples:\n{}", usage.examples);
 }
 
-std::vector<std::string> option_names(const po::options_description& options) {
-  std::vector<std::string> names{"--help"};
-  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
-  return names;
+/// ": did you mean '--out'?", or nothing. The dashes, which all have, make no name alike.
+std::string guess_option(const std::string& word, const po::options_description& options) {
+  std::vector<std::string> names{"help"};
+  for (const auto& option : options.options()) names.push_back(option->long_name());
+  const std::string name = nearest(word.substr(std::min(word.find_first_not_of('-'), word.size())), names);
+  return name.empty() ? "" : fmt::format(": did you mean '--{}'?", name);
 }
 
 }  // namespace
@@ -55,7 +58,7 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
   } catch (const po::unknown_option& problem) {
     const std::string name = problem.get_option_name();
     throw UsageError(usage.command,
-                     fmt::format("unknown option '{}'{}", name, guess(name, option_names(usage.options))));
+                     fmt::format("unknown option '{}'{}", name, guess_option(name, usage.options)));
   } catch (const po::too_many_positional_options_error&) {
     throw UsageError(usage.command, usage.argument.empty() ? std::string("it takes options only")
                                                            : fmt::format("it takes one {} only",

@@ -32,7 +32,7 @@ struct Usage {
 std::optional<boost::program_options::variables_map> read_arguments(const Usage& usage,
                                                                     const std::vector<std::string>& words);
 
-/// ": did you mean '--out'?", or nothing if no name resembles the word.
+/// ": did you mean 'run'?", or nothing if no name resembles the word.
 std::string guess(const std::string& word, const std::vector<std::string>& names);
 
 /// "" if the option was not given.

@@ -3,7 +3,6 @@
 #include "exit_code.hpp"
 #include "help.hpp"
 #include "log.hpp"
-#include "model/laid_cover.hpp"
 #include "output/input_error.hpp"
 #include "scene/read.hpp"
 #include "scene_options.hpp"
@@ -90,8 +89,6 @@ int guarded(const Words& words) {
   } catch (const SceneError& problem) {
     return report(problem, exit_code::bad_input, log);
   } catch (const InputError& problem) {
-    return report(problem, exit_code::bad_input, log);
-  } catch (const BodyRefused& problem) {
     return report(problem, exit_code::bad_input, log);
   } catch (const PluginError& problem) {
     return report(problem, exit_code::plugin_refused, log);

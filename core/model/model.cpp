@@ -4,6 +4,7 @@
 #include "model/laid_cover.hpp"
 #include "model/region.hpp"
 #include "model/strips.hpp"
+#include "scene/source.hpp"
 
 #include <fmt/format.h>
 
@@ -210,7 +211,15 @@ Model build_model(const Scene& scene) {
   Model model;
   model.piece_start.push_back(0);
   model.bodies.reserve(scene.bodies.size());
-  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) add_body(model, scene, i);
+  std::vector<RefusedBody> refused;
+  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+    try {
+      add_body(model, scene, i);
+    } catch (const BodyRefused& problem) {
+      refused.push_back({i, problem.what()});
+    }
+  }
+  if (!refused.empty()) throw error_of(scene, refused);
   sort_elements(model, scene);
   measure_widths(model);
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {

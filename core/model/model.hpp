@@ -153,7 +153,7 @@ struct Model {
 /// The sides of a moving body's boundary, loop after loop.
 std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, std::uint32_t body);
 
-/// Throws BodyRefused when a body cannot have its cover or be cut, PluginError when a builder makes what is
+/// Throws SceneError when bodies cannot have their cover or be cut, PluginError when a builder makes what is
 /// no cover.
 Model build_model(const Scene& scene);
 

@@ -10,6 +10,7 @@
 #include "scene/materials.hpp"
 #include "scene/monitors.hpp"
 #include "scene/overrides.hpp"
+#include "scene/source.hpp"
 #include "scene/stages.hpp"
 #include "scene/tables.hpp"
 #include "scene/take_function.hpp"
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <utility>
 
 namespace talus {
@@ -69,10 +71,13 @@ void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   root.finish();
 }
 
-}  // namespace
+struct ReadText {
+  Scene scene;
+  Expansion expansion;
+};
 
-Scene read_scene_text(const std::string& text, const std::string& name, Registry& registry,
-                      const ReadOptions& options) {
+ReadText read_text(const std::string& text, const std::string& name, Registry& registry,
+                   const ReadOptions& options) {
   ParsedText parsed = parse_json(text, name);
   if (!parsed.complete) throw SceneError(std::move(parsed.mistakes));
 
@@ -104,11 +109,21 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
     throw mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes));
   }
   reading.scene.resolved = root.resolved.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  return std::move(reading.scene);
+  return {std::move(reading.scene), std::move(expansion)};
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& name, Registry& registry,
+                      const ReadOptions& options) {
+  return read_text(text, name, registry, options).scene;
 }
 
 Scene read_scene(const std::filesystem::path& file, Registry& registry, const ReadOptions& options) {
-  return read_scene_text(read_whole_file(file), file.string(), registry, options);
+  ReadText read = read_text(read_whole_file(file), file.string(), registry, options);
+  read.scene.source =
+      std::make_shared<SceneSource>(SceneSource{file.string(), options.overrides, std::move(read.expansion)});
+  return std::move(read.scene);
 }
 
 }  // namespace talus

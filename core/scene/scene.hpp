@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -173,11 +174,14 @@ struct Tolerance {
   std::optional<double> largest, rms, final;
 };
 
+struct SceneSource;
+
 /// A scene that passed validation.
 struct Scene {
   std::string file, title;
-  SimdLevel simd = SimdLevel::scalar;  ///< of the registry it was read with
-  Vec2 origin;                         ///< m, world coordinates of the scene's (0, 0); added on output only
+  std::shared_ptr<const SceneSource> source;  ///< nullptr where it came from no file
+  SimdLevel simd = SimdLevel::scalar;         ///< of the registry it was read with
+  Vec2 origin;  ///< m, world coordinates of the scene's (0, 0); added on output only
   Vec2 gravity;
   std::vector<SceneMaterial> materials;
   std::vector<SurfaceClass> surfaces;

@@ -1,7 +1,7 @@
 #include "simulation/loads.hpp"
 
-#include "model/laid_cover.hpp"
 #include "plugin/registry.hpp"
+#include "scene/source.hpp"
 
 #include <fmt/format.h>
 
@@ -67,10 +67,10 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
     const SceneMaterial& material = scene.materials[scene.bodies[absorbing.body].material];
     double tangent[9] = {};
     if (material.model.component == nullptr) {
-      throw BodyRefused(
-          fmt::format("body '{}' is rigid: an absorbing surface needs the wave speeds of a material "
-                      "that deforms",
-                      scene.bodies[absorbing.body].name));
+      throw error_of(scene, {{absorbing.body,
+                              fmt::format("body '{}' is rigid: an absorbing surface needs the wave speeds "
+                                          "of a material that deforms",
+                                          scene.bodies[absorbing.body].name)}});
     }
     make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
     const double pressure = std::sqrt(material.density * tangent[0]);

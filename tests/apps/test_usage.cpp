@@ -33,6 +33,8 @@ TEST_CASE("a word that is no command or option gets the nearest one", "[apps]") 
   const Call option = call_talus(scratch.folder(), {"run", "scene.json", "--overwrit"});
   CHECK(option.code == 2);
   CHECK_THAT(option.err, Contains("unknown option '--overwrit'") && Contains("'--overwrite'"));
+  const Call other = call_talus(scratch.folder(), {"run", "scene.json", "--nope"});
+  CHECK_THAT(other.err, Contains("unknown option '--nope'") && !Contains("did you mean"));
   CHECK(call_talus(scratch.folder(), {"--versoin"}).code == 2);
   CHECK(call_talus(scratch.folder(), {}).code == 2);
 }

@@ -1,5 +1,6 @@
 #include "model/laid_cover.hpp"
 #include "model/model.hpp"
+#include "scene/read.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <talus/cover_builder.hpp>
@@ -120,6 +121,6 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
 }
 
 TEST_CASE("A body that its cover refuses is told with the cover's own words", "[model][cover]") {
-  CHECK(refusal_with<BodyRefused>(Flaw::refuses) ==
-        "body 'square' cannot have the cover 'flawed': squares are too plain");
+  CHECK(refusal_with<SceneError>(Flaw::refuses) ==
+        "working.json: /bodies/0: body 'square' cannot have the cover 'flawed': squares are too plain");
 }

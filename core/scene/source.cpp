@@ -1,0 +1,25 @@
+#include "scene/source.hpp"
+
+#include "output/whole_file.hpp"
+#include "scene/mistakes.hpp"
+#include "scene/positions.hpp"
+
+#include <utility>
+
+namespace talus {
+
+SceneError error_of(const Scene& scene, const std::vector<RefusedBody>& refused) {
+  if (scene.source == nullptr) {
+    std::vector<Mistake> mistakes;
+    for (const RefusedBody& body : refused)
+      mistakes.push_back({scene.file, 0, 0, below("/bodies", body.body), body.words});
+    return SceneError(std::move(mistakes));
+  }
+  const SceneSource& source = *scene.source;
+  Mistakes mistakes;
+  for (const RefusedBody& body : refused)
+    mistakes.add(source.expansion.origin_of(below("/bodies", body.body)), body.words);
+  return mistakes.placed(read_whole_file(source.file), source.file, source.overrides, {});
+}
+
+}  // namespace talus
