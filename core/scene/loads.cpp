@@ -1,10 +1,12 @@
 #include "scene/loads.hpp"
 
+#include "scene/components.hpp"
 #include "scene/tables.hpp"
 #include "scene/take_function.hpp"
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 namespace talus {
@@ -15,6 +17,19 @@ void check_moves(Reading& reading, Section& section, std::optional<std::uint32_t
   reading.mistakes.add(
       section.pointer_to("body"),
       fmt::format("body \"{}\" is fixed: expected one that moves", reading.scene.bodies[*body].name));
+}
+
+void check_has_wave_speeds(Reading& reading, Section& section, std::optional<std::uint32_t> body) {
+  if (!body) return;
+  const SceneBody& taken = reading.scene.bodies[*body];
+  if (taken.cover.component == nullptr ||
+      std::string_view(taken.cover.component->component->name) != rigid_cover ||
+      reading.scene.materials[taken.material].model.component != nullptr)
+    return;
+  reading.mistakes.add(section.pointer_to("body"),
+                       fmt::format("body \"{}\" is rigid: an absorbing surface needs the wave speeds of a "
+                                   "material that deforms",
+                                   taken.name));
 }
 
 PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
@@ -96,6 +111,7 @@ void read_absorbing(Reading& reading, Section& root) {
               Section section(&value, pointer, reading.mistakes);
               const auto body = take_body(reading, section);
               check_moves(reading, section, body);
+              check_has_wave_speeds(reading, section, body);
               const auto surface = take_surface(reading, section, body);
               section.finish();
               reading.scene.absorbing.push_back({body.value_or(0), surface.value_or(0)});

@@ -122,7 +122,7 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
 Scene read_scene(const std::filesystem::path& file, Registry& registry, const ReadOptions& options) {
   ReadText read = read_text(read_whole_file(file), file.string(), registry, options);
   read.scene.source =
-      std::make_shared<SceneSource>(SceneSource{file.string(), options.overrides, std::move(read.expansion)});
+      std::make_shared<SceneSource>(SceneSource{options.overrides, std::move(read.expansion)});
   return std::move(read.scene);
 }
 

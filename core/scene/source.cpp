@@ -15,11 +15,10 @@ SceneError error_of(const Scene& scene, const std::vector<RefusedBody>& refused)
       mistakes.push_back({scene.file, 0, 0, below("/bodies", body.body), body.words});
     return SceneError(std::move(mistakes));
   }
-  const SceneSource& source = *scene.source;
   Mistakes mistakes;
   for (const RefusedBody& body : refused)
-    mistakes.add(source.expansion.origin_of(below("/bodies", body.body)), body.words);
-  return mistakes.placed(read_whole_file(source.file), source.file, source.overrides, {});
+    mistakes.add(scene.source->expansion.origin_of(below("/bodies", body.body)), body.words);
+  return mistakes.placed(read_whole_file(scene.file), scene.file, scene.source->overrides, {});
 }
 
 }  // namespace talus

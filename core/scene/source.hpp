@@ -9,9 +9,9 @@
 
 namespace talus {
 
-/// Where a scene was written. What is wrong with a body may show only when it is built.
+/// What came between the file of a scene and its bodies. What is wrong with a body may show only when it is
+/// built.
 struct SceneSource {
-  std::string file;
   std::vector<Override> overrides;
   Expansion expansion;
 };

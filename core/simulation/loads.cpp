@@ -1,9 +1,6 @@
 #include "simulation/loads.hpp"
 
 #include "plugin/registry.hpp"
-#include "scene/source.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,12 +63,6 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
   for (const AbsorbingSurface& absorbing : settings.absorbing) {
     const SceneMaterial& material = scene.materials[scene.bodies[absorbing.body].material];
     double tangent[9] = {};
-    if (material.model.component == nullptr) {
-      throw error_of(scene, {{absorbing.body,
-                              fmt::format("body '{}' is rigid: an absorbing surface needs the wave speeds "
-                                          "of a material that deforms",
-                                          scene.bodies[absorbing.body].name)}});
-    }
     make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
     const double pressure = std::sqrt(material.density * tangent[0]);
     const double shear = std::sqrt(material.density * tangent[8]);

@@ -213,6 +213,20 @@ TEST_CASE("absorbing surfaces find their class", "[scene]") {
   CHECK(scene.surfaces[scene.absorbing[0].surface_class].surface == "base");
 }
 
+TEST_CASE("absorbing surfaces of rigid bodies are named, all of them", "[scene]") {
+  ReadOptions options;
+  options.overrides = {{"/bodies/1/cover", R"({"model": "rigid"})"}};
+  const std::vector<Mistake> found =
+      sample::mistakes(good_with(R"("absorbing": [{"body": "block", "surface": "base"},
+                                                   {"body": "block", "surface": "side"}])"),
+                       options);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].pointer == "/absorbing/0/body");
+  CHECK(found[1].pointer == "/absorbing/1/body");
+  CHECK(found[1].line == found[0].line + 1);
+  CHECK_THAT(found[0].message, Catch::Contains("\"block\" is rigid") && Catch::Contains("wave speeds"));
+}
+
 TEST_CASE("prescribed motions depend on time and place, and an axis may be held at zero or free", "[scene]") {
   const Scene scene =
       sample::read(good_with(R"("prescribed": [{"body": "block", "surface": "base", "stiffness": 1,
