@@ -128,7 +128,8 @@ def draw(runs):
     paper, whole = runs["paper"][PAPER], runs["whole"]
     top = peak(paper)[0]
     colors = {"5e-5": GREEN, "1e-4": BLUE, AUTO: VERMILION, "4e-4": GOLD}
-    names = [name if name != AUTO else f"auto, {1e4 * whole[AUTO]['dt']:.2f}e-4" for name in colors]
+    mean_step = whole[AUTO]["t"] / whole[AUTO]["steps"]
+    names = [name if name != AUTO else f"auto, {1e4 * mean_step:.2f}e-4" for name in colors]
     times = [EVERY * i for i in range(len(whole[AUTO]["velocity"]))]
 
     d.text(28, 34, "Mean velocity of the slide with several time steps", 16, INK, weight=700)
@@ -141,7 +142,7 @@ def draw(runs):
     plot.curve(times, speeds(paper), INK, 2.0, "6 4")
     entries = [(f"{PAPER} s, the paper's, to {PAPER_END:g} s", INK, "6 4", 2)]
     entries += [(f"{name} s", color, None, 2) for name, color in zip(names, colors.values())]
-    for i, (name, color, dash, width) in enumerate(entries + [("auto, changed by 0.2 to 0.6 %", FAINT, None, 4)]):
+    for i, (name, color, dash, width) in enumerate(entries + [("auto, changed by 0.2 to 0.5 %", FAINT, None, 4)]):
         d.line(590, 100 + 18 * i, 616, 100 + 18 * i, color, width, dash)
         d.text(624, 104 + 18 * i, name, 12, SOFT)
 
