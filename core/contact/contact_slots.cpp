@@ -20,8 +20,8 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
     make_room_in(workspace.history, std::size_t{most} * history_doubles_);
     workspace.history.resize(std::size_t{most} * history_doubles_);
   }
-  move_reports(capacities);
-  move_history(capacities);
+  move_slots(1, capacities, reports_);
+  move_slots(history_doubles_, capacities, history_);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     BodyPair& pair = pairs_[i];
     pair.slot_start = i % pair_chunk == 0 ? 0 : pairs_[i - 1].slot_start + pairs_[i - 1].slot_capacity;
@@ -29,31 +29,20 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
   }
 }
 
-/// Only what sleeps still has its own.
-void ContactStage::move_reports(std::span<const std::uint32_t> capacities) {
-  if (!island_.empty()) {
-    std::vector<ContactReport> moved(slot_base_.back());
-    std::uint32_t start = 0;
-    for (std::size_t i = 0; i < pairs_.size(); start += capacities[i++])
-      std::copy_n(reports_.begin() + pairs_[i].slot_start, pairs_[i].contact_count, moved.begin() + start);
-    reports_.swap(moved);
-  }
-  make_room_in(reports_, slot_base_.back());
-  reports_.resize(slot_base_.back());
-}
-
 /// Within one array: first to the front as closely as they go, then from the last on to their places.
-void ContactStage::move_history(std::span<const std::uint32_t> capacities) {
-  const auto at = [&](std::size_t slot) { return history_.data() + slot * history_doubles_; };
+template <class Value>
+void ContactStage::move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
+                              std::vector<Value>& values) {
+  const auto at = [&](std::size_t slot) { return values.data() + slot * values_per_slot; };
   std::size_t front = 0;
   for (const BodyPair& pair : pairs_) {
     const std::size_t from = pair.slot_start;
     if (from != front) std::copy(at(from), at(from + pair.contact_count), at(front));
     front += pair.contact_count;
   }
-  const std::size_t size = std::size_t{slot_base_.back()} * history_doubles_;
-  make_room_in(history_, size);
-  history_.resize(size);
+  const std::size_t size = slot_base_.back() * values_per_slot;
+  make_room_in(values, size);
+  values.resize(size);
   std::size_t start = slot_base_.back();
   for (std::size_t i = pairs_.size(); i-- > 0;) {
     const std::size_t count = pairs_[i].contact_count;
@@ -63,17 +52,9 @@ void ContactStage::move_history(std::span<const std::uint32_t> capacities) {
   }
 }
 
-bool ContactStage::short_of_room() const {
-  return std::any_of(chunk_totals_.begin(), chunk_totals_.end(),
-                     [](const ChunkTotals& chunk) { return chunk.short_of_room; });
-}
-
 /// For the pairs that close() left to be asked about again.
 void ContactStage::make_room() {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (ask_again_[i] != in_this_step) capacities_[i] = pairs_[i].slot_capacity;
-    pairs_[i].slot_start = slot_of(i);
-  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].slot_start = slot_of(i);
   lay_out_slots(capacities_);
 }
 

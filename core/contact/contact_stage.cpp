@@ -22,7 +22,6 @@ constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before 
 /// Share of the vanishing depth at the start that a law may count on: bodies strain. Measured once, for what
 /// a law does must not depend on when neighbours were sought.
 constexpr double clear_share = 0.8;
-constexpr std::size_t body_chunk = 64;
 
 void noop(void* /*object*/) noexcept {}
 
@@ -33,13 +32,9 @@ void copy_doubles(const double* from, std::size_t count, double* to) {
   if (i < count) to[i] = from[i];
 }
 
-bool is_one_piece(const Model& model, const Body& body) {
-  return body.piece_end == body.piece_begin + 1 && model.is_strip[body.piece_begin] == 0;
-}
-
 /// Whether laws may take it for one convex piece of one surface class all around.
 bool is_plain(const Model& model, const Body& body) {
-  if (!is_one_piece(model, body)) return false;
+  if (!model.one_piece(body)) return false;
   if (body.corner_end - body.corner_begin > std::numeric_limits<std::uint16_t>::max()) return false;
   const std::uint32_t surface = model.surface[body.corner_begin];
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
@@ -54,18 +49,16 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
                            SimdLevel level)
     : law_(nullptr, noop),
       workers_(workers),
-      kernels_(kernels::block_kernels(level)),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
       workspaces_(static_cast<std::size_t>(workers.threads())),
       keeps_stored_(scene.sleep.has_value()),
       search_(model),
-      lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()) {
+      lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
+      loads_(model, level, workers) {
   for (const Body& body : model.bodies) {
     fixed_.push_back(body.kinematics == Kinematics::fixed);
     plain_.push_back(is_plain(model, body) ? 1 : 0);
-    corner_begin_.push_back(body.corner_begin);
-    corner_count_.push_back(is_one_piece(model, body) ? body.corner_end - body.corner_begin : 0);
   }
   if (scene.contact.component == nullptr) return;
   const MotionState at_start(model);
@@ -171,7 +164,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
   }
   ask_again_.assign(pairs_.size(), 0.0);
-  make_room_for_loads(model);
+  lay_out_loads(model);
 
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);
@@ -193,21 +186,10 @@ void ContactStage::rebuild_pairs(const Model& model) {
 }
 
 /// Of the pairs there are.
-void ContactStage::make_room_for_loads(const Model& model) {
-  std::uint32_t loads = 0;
-  for (PiecePair& pieces : piece_pairs_) {
-    pieces.load_start = loads;
-    loads += model.piece_start[pieces.a + 1] - model.piece_start[pieces.a];
-    loads += model.piece_start[pieces.b + 1] - model.piece_start[pieces.b];
-  }
-  for (std::vector<double>* values : {&load_x_, &load_y_}) {
-    make_room_in(*values, loads + guard_loads);
-    values->assign(loads, 0.0);  // where no pair touches they stay zero
-    values->resize(loads + guard_loads, guard_load);
-  }
+void ContactStage::lay_out_loads(const Model& model) {
+  loads_.lay_out(model, pairs_, piece_pairs_);
   if (keeps_stored_) stored_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
-  sort_loads_by_body(model);
   describe_plain_pairs(model);
 }
 
@@ -222,52 +204,35 @@ void ContactStage::describe_plain_pairs(const Model& model) {
   }
 }
 
-/// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
-void ContactStage::sort_loads_by_body(const Model& model) {
-  const auto visit = [&](const auto& take) {
-    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
-      for (std::uint32_t p = pairs_[i].piece_pair_start; p < pairs_[i].piece_pair_end; ++p) {
-        const PiecePair& pieces = piece_pairs_[p];
-        const std::uint32_t corners_a = model.piece_start[pieces.a + 1] - model.piece_start[pieces.a];
-        if (fixed_[pairs_[i].a] == 0) take(pairs_[i].a, {pieces.load_start, pieces.a});
-        if (fixed_[pairs_[i].b] == 0) take(pairs_[i].b, {pieces.load_start + corners_a, pieces.b});
-      }
-    }
-  };
-  body_loads_start_.assign(model.bodies.size() + 1, 0);
-  visit([&](std::uint32_t body, const kernels::PieceLoads&) { ++body_loads_start_[body + 1]; });
-  std::partial_sum(body_loads_start_.begin(), body_loads_start_.end(), body_loads_start_.begin());
-  body_loads_.resize(body_loads_start_.back());
-  next_body_load_.assign(body_loads_start_.begin(), body_loads_start_.end() - 1);
-  visit([&](std::uint32_t body, const kernels::PieceLoads& loads) {
-    body_loads_[next_body_load_[body]++] = loads;
-  });
-}
-
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return {};
   touched_.clear();
+  fault_ = {};
   chunk_totals_.assign(chunk_totals_.size(), {});
+  evaluate(model, motion, conditions, travelled_);
+  while (wake_touched()) evaluate(model, motion, conditions, in_this_step);
+  return totals();
+}
+
+/// Of the pairs whose time has come (see ask_again_), wave after wave of them.
+void ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
+                            double until) {
   const auto close_chunk = [&](std::size_t chunk, std::span<const std::uint32_t> active, Workspace& found) {
     close(chunk, active, found);
   };
-  ask(model, motion, conditions, travelled_, close_chunk);
-  for (;;) {
-    if (short_of_room()) {
+  for (std::size_t number = 0; number < loads_.waves(); ++number) {
+    const Wave now = wave(number);
+    ask(model, motion, conditions, now, until, true, close_chunk);
+    while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
       make_room();
-    } else if (!wake_touched()) {
-      break;
+      ask(model, motion, conditions, now, in_this_step, false, close_chunk);
     }
-    ask(model, motion, conditions, in_this_step, close_chunk);
+    if (!loads_.written()) continue;
+    const bool finite = loads_.add(model, still_, motion);
+    const bool unsound = any_chunk(now, [](const ChunkTotals& chunk) { return chunk.unsound != no_pair; });
+    if ((conditions.observed || unsound || !finite) && fault_.found.empty())
+      fault_ = fault_of(model, motion, now);
   }
-#ifdef TALUS_AUDIT
-  // All loads were no numbers until the law wrote them; those of pairs apart are zero.
-  for (const BodyPair& pair : pairs_) {
-    if (pair.contact_count == 0) clear_loads(pair);
-  }
-#endif
-  add_loads(model, motion);
-  return totals();
 }
 
 double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
@@ -275,59 +240,62 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   if (!law_ || pairs_.empty()) return 0;
   chunk_totals_.assign(chunk_totals_.size(), {});
   interfaces_.value = former_interface_values_.data();
-  ask(model, motion, conditions, travelled_,
-      [&](std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
-        for (const std::uint32_t in_chunk : active) {
-          const BodyPair& pair = pairs_[chunk * pair_chunk + in_chunk];
-          const PairReport& report = found.reports[in_chunk];
-          chunk_totals_[chunk].stored += report.stored;
-          chunk_totals_[chunk].slip_loss += report.slip_loss;
-          // With other parameters a law may find contact where it finds none now.
-          if (report.contact_count != 0 && pair.contact_count == 0) clear_loads(pair);
-        }
-      });
+  for (std::size_t number = 0; number < loads_.waves(); ++number) {
+    ask(model, motion, conditions, wave(number), travelled_, true,
+        [&](std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
+          for (const std::uint32_t in_chunk : active) {
+            chunk_totals_[chunk].stored += found.reports[in_chunk].stored;
+            chunk_totals_[chunk].slip_loss += found.reports[in_chunk].slip_loss;
+          }
+        });
+  }
   interfaces_.value = interface_values_.data();
   const ContactTotals found = totals();
   return found.stored + found.slip_loss;
 }
 
-/// Asks the law about the pairs whose time has come (see ask_again_). Calls each(chunk, pairs of it that were
+/// Asks the law about pairs of a wave: anew, or once more about some. Calls each(chunk, pairs of it that were
 /// asked about, what the law said).
 template <class Each>
 void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
-                       double until, const Each& each) {
-#ifdef TALUS_AUDIT
-  const double poison = std::numeric_limits<double>::quiet_NaN();
-  for (Workspace& workspace : workspaces_)
-    std::fill(workspace.history.begin(), workspace.history.end(), poison);
-  if (until >= 0) {
-    for (std::vector<double>* values : {&load_x_, &load_y_})
-      std::fill(values->begin(), values->end() - guard_loads, poison);
-  }
-#endif
+                       const Wave& wave, double until, bool anew, const Each& each) {
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
-  workers_.over(pairs_.size(), pair_chunk,
-                [&](std::size_t chunk, std::size_t begin, std::size_t end, std::size_t thread) {
-                  Workspace& found = workspaces_[thread];
-                  const std::uint32_t count = choose_active(begin, end, until, found.active);
-                  if (count == 0) return;
-                  const std::size_t slot = slot_base_[chunk];
-                  const ContactBatch batch{boundaries,
-                                           interfaces_,
-                                           pairs_.data() + begin,
-                                           piece_pairs_.data(),
-                                           history_.data() + slot * history_doubles_,
-                                           found.active.data(),
-                                           count,
-                                           conditions.dt,
-                                           conditions.hold_stick,
-                                           conditions.bonds_form};
-                  law_->evaluate(
-                      batch, {load_x_.data(), load_y_.data(), found.history.data(),
-                              conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
-                  each(chunk, std::span<const std::uint32_t>(found.active).first(count), found);
-                });
+  if (anew) loads_.begin(wave.number);
+  const auto ask_chunk = [&](std::size_t in_wave, std::size_t begin, std::size_t end, std::size_t thread) {
+    if (anew) loads_.clear(in_wave);
+    Workspace& found = workspaces_[thread];
+    begin += wave.begin, end += wave.begin;
+    const std::uint32_t count = choose_active(begin, end, until, found.active);
+    if (count == 0) return;
+    loads_.expect();
+#ifdef TALUS_AUDIT
+    const double poison = std::numeric_limits<double>::quiet_NaN();
+    std::fill(found.history.begin(), found.history.end(), poison);
+    for (std::uint32_t i = 0; i < count; ++i) fill_loads(model, pairs_[begin + found.active[i]], poison);
+#endif
+    const std::size_t chunk = wave.first_chunk() + in_wave, slot = slot_base_[chunk];
+    const ContactBatch batch{boundaries,
+                             interfaces_,
+                             pairs_.data() + begin,
+                             piece_pairs_.data(),
+                             history_.data() + slot * history_doubles_,
+                             found.active.data(),
+                             count,
+                             conditions.dt,
+                             conditions.hold_stick,
+                             conditions.bonds_form};
+    law_->evaluate(batch, {loads_.x(), loads_.y(), found.history.data(),
+                           conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
+#ifdef TALUS_AUDIT
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (found.reports[found.active[i]].contact_count == 0)
+        fill_loads(model, pairs_[begin + found.active[i]], 0);
+    }
+#endif
+    each(chunk, std::span<const std::uint32_t>(found.active).first(count), found);
+  };
+  workers_.over(wave.end - wave.begin, pair_chunk, ask_chunk);
 }
 
 /// Pairs that were apart need no look until both bodies together may have closed the gap.
@@ -367,7 +335,6 @@ void ContactStage::close(std::size_t chunk, std::span<const std::uint32_t> activ
     totals.slip_loss += report.slip_loss;
     if (stored != nullptr) stored[i] = report.stored;
     if (report.contact_count == 0) {
-      if (pair.contact_count != 0) clear_loads(pair);
       pair.contact_count = 0;
       damping_power[i] = 0;
       ask_again[i] = skin ? travelled + report.gap / 2 : 0;
@@ -417,49 +384,16 @@ ContactTotals ContactStage::totals() const {
   return totals;
 }
 
-/// So that bodies gather without asking who touches whom.
-void ContactStage::clear_loads(const BodyPair& pair) {
-  const std::uint32_t begin = piece_pairs_[pair.piece_pair_start].load_start;
-  const std::size_t next = pair.piece_pair_end;
-  const std::size_t end =
-      next < piece_pairs_.size() ? piece_pairs_[next].load_start : load_x_.size() - guard_loads;
-  for (std::vector<double>* values : {&load_x_, &load_y_})
-    std::fill(values->begin() + begin, values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);
-}
-
-/// f_c of Eq. 48: each body gathers the loads at its corners, pair after pair, whatever the threads did.
-void ContactStage::add_loads(const Model& model, MotionState& motion) {
-  const kernels::GatheredLoads loads{corner_begin_.data(), corner_count_.data(), body_loads_start_.data(),
-                                     body_loads_.data(),   load_x_.data(),       load_y_.data()};
-  const auto one_piece = [&](std::size_t body) {
-    return corner_count_[body] != 0 && (island_.empty() || island_[body] == 0);
+#ifdef TALUS_AUDIT
+void ContactStage::fill_loads(const Model& model, const BodyPair& pair, double value) {
+  const PiecePair &first = piece_pairs_[pair.piece_pair_start], &last = piece_pairs_[pair.piece_pair_end - 1];
+  const auto corners = [&](std::uint32_t piece) {
+    return model.piece_start[piece + 1] - model.piece_start[piece];
   };
-  workers_.over(model.bodies.size(), body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t body = begin; body < end; ++body) {
-      const std::size_t first = body;
-      while (body < end && one_piece(body)) ++body;
-      kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(), motion.forces.data(),
-                         first, body);
-      if (body == end) break;
-      if (!island_.empty() && island_[body] != 0) continue;
-      for (std::uint32_t at = body_loads_start_[body]; at != body_loads_start_[body + 1]; ++at)
-        add_piece_loads(model, body_loads_[at], motion);
-    }
-  });
+  const std::uint32_t end = last.load_start + corners(last.a) + corners(last.b);
+  std::fill(loads_.x() + first.load_start, loads_.x() + end, value);
+  std::fill(loads_.y() + first.load_start, loads_.y() + end, value);
 }
-
-void ContactStage::add_piece_loads(const Model& model, const kernels::PieceLoads& loads,
-                                   MotionState& motion) const {
-  std::uint32_t load = loads.load;
-  if (model.is_strip[loads.piece] != 0) {
-    const BoundarySide& side = model.sides[model.strips[model.piece_strip[loads.piece]].side];
-    motion.add_force(side.start, {load_x_[load], load_y_[load]});
-    motion.add_force(side.end, {load_x_[load + 1], load_y_[load + 1]});
-    return;
-  }
-  BodyForce& force = motion.forces[model.piece_body[loads.piece]];
-  for (std::uint32_t c = model.piece_start[loads.piece]; c < model.piece_start[loads.piece + 1]; ++c, ++load)
-    force.add({model.reference_x[c], model.reference_y[c]}, {load_x_[load], load_y_[load]});
-}
+#endif
 
 }  // namespace talus

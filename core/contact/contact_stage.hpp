@@ -3,7 +3,7 @@
 #include "checkpoint/archive.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
-#include "kernels/level.hpp"
+#include "contact/wave_loads.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "parallel/workers.hpp"
@@ -12,6 +12,7 @@
 
 #include <talus/contact_model.hpp>
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -52,8 +53,9 @@ class ContactStage {
   /// Evaluates the law on all pairs and adds the loads to the forces on the moving bodies.
   ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
 
-  /// What the law of the last evaluate() did that no law may do. Costs as much as a look at all loads.
-  LawFault fault(const Model& model, const MotionState& motion) const;
+  /// What the law did in the last evaluate() that no law may do: sought where it was observed or gave what is
+  /// no number, for that costs as much as a look at all loads.
+  const LawFault& fault() const { return fault_; }
 
   /// What the contacts would hold and have lost, J/m, with the parameters before the last set_interfaces();
   /// no step is taken.
@@ -83,23 +85,19 @@ class ContactStage {
   }
 
  private:
-  static constexpr std::size_t pair_chunk = 256;  ///< pairs a law is given at once
   static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
   static constexpr double in_this_step = -1;  ///< of ask_again_
-  static constexpr std::size_t guard_loads = 8;
-  static constexpr double guard_load = -1.2345678901234567e-300;
 
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
-  void make_room_for_loads(const Model& model);
+  void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
   bool fits(const Model& model) const;
-  void sort_loads_by_body(const Model& model);
   void lay_out_slots(std::span<const std::uint32_t> capacities);
-  void move_reports(std::span<const std::uint32_t> capacities);
-  void move_history(std::span<const std::uint32_t> capacities);
+  template <class Value>
+  void move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
+                  std::vector<Value>& values);
   void make_room();
-  bool short_of_room() const;
   std::uint32_t slot_of(std::size_t pair) const {
     return slot_base_[pair / pair_chunk] + pairs_[pair].slot_start;
   }
@@ -113,35 +111,49 @@ class ContactStage {
     bool short_of_room = false;
     std::uint32_t unsound = no_pair;  ///< a pair with a report that is no number
   };
+  /// Part of the pairs: those whose loads are held at once.
+  struct Wave {
+    std::size_t number, begin, end;
+    std::size_t first_chunk() const { return begin / pair_chunk; }
+    std::size_t end_chunk() const { return (end + pair_chunk - 1) / pair_chunk; }
+  };
+  Wave wave(std::size_t number) const {
+    const std::size_t begin = number * pairs_of_wave;
+    return {number, begin, std::min(begin + pairs_of_wave, pairs_.size())};
+  }
+  void evaluate(const Model& model, MotionState& motion, const Conditions& conditions, double until);
   template <class Each>
-  void ask(const Model& model, const MotionState& motion, const Conditions& conditions, double until,
-           const Each& each);
+  void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
+           double until, bool anew, const Each& each);
   std::uint32_t choose_active(std::size_t begin, std::size_t end, double until,
                               std::vector<std::uint32_t>& active) const;
   void close(std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found);
   static std::uint32_t first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
-  void clear_loads(const BodyPair& pair);
-  void add_loads(const Model& model, MotionState& motion);
+  template <class Is>
+  bool any_chunk(const Wave& wave, const Is& is) const {
+    return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk()),
+                       chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
+  }
+#ifdef TALUS_AUDIT
+  void fill_loads(const Model& model, const BodyPair& pair, double value);
+#endif
+  LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
   void hold_sleeping_pairs();
   bool wake_touched();
-  void add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
   double master_share(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
   std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
-  std::vector<double> priority_;             ///< [body], empty with symmetric roles
-  std::vector<char> fixed_;                  ///< [body]
-  std::vector<std::uint32_t> corner_begin_;  ///< [body]
-  std::vector<std::uint32_t> corner_count_;  ///< [body] of one that is one convex piece; else 0
-  std::vector<char> plain_;                  ///< [body] as BodyPair says it
-  std::vector<double> clear_depth_;          ///< [piece] as Boundaries::clear_depth
+  std::vector<double> priority_;     ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;          ///< [body]
+  std::vector<char> plain_;          ///< [body] as BodyPair says it
+  std::vector<double> clear_depth_;  ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
-  const kernels::BlockKernels& kernels_;
   double near_;        ///< m, up to which bodies are neighbours
   double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
   double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
@@ -162,23 +174,22 @@ class ContactStage {
   };
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
-  std::vector<kernels::PieceLoads> body_loads_;  ///< loads on the moving bodies, body after body
-  std::vector<std::uint32_t> body_loads_start_;  ///< [body + 1]
-  std::vector<std::uint32_t> next_body_load_;    ///< [body] while body_loads_ is filled
+  WaveLoads loads_;
+  LawFault fault_;
   std::vector<ChunkTotals> chunk_totals_;
   double travelled_ = 0;  ///< m, bound of what a corner has moved since the last search
   /// [pair] m of travelled_, when a law is to be asked about it.
   std::vector<double> ask_again_;
-  std::vector<double> damping_power_;  ///< [pair] J/m of the last step
-  std::vector<double> stored_;         ///< [pair] J/m, if keeps_stored_
-  std::vector<std::uint32_t> capacities_;
+  std::vector<double> damping_power_;      ///< [pair] J/m of the last step
+  std::vector<double> stored_;             ///< [pair] J/m, if keeps_stored_
+  std::vector<std::uint32_t> capacities_;  ///< [pair] its slots, or how many it needs
   /// [chunk of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
   std::vector<std::uint32_t> slot_base_{0};
   std::vector<double> history_;
   std::vector<ContactReport> reports_;           ///< [slot] of the last step that was observed
-  std::vector<double> load_x_, load_y_;          ///< and guard_loads more, which no law may touch
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
+  std::vector<char> still_;  ///< [body] it sleeps, and nobody who is awake may touch it; empty: none does
 };
 
 }  // namespace talus

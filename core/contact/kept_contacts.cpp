@@ -24,7 +24,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
     slot += pair.slot_capacity;
     capacities_.push_back(pair.slot_capacity);
   }
-  make_room_for_loads(model);
+  lay_out_loads(model);
   lay_out_slots(capacities_);
   if (!island_.empty()) hold_sleeping_pairs();
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace talus {
@@ -26,19 +25,15 @@ struct PairSum {
 
 }  // namespace
 
-/// Of the pairs that were evaluated last. Looks at loads only where the host takes them from.
-LawFault ContactStage::fault(const Model& model, const MotionState& motion) const {
-  for (const std::vector<double>* loads : {&load_x_, &load_y_}) {
-    for (std::size_t i = loads->size() - guard_loads; i < loads->size() && !pairs_.empty(); ++i) {
-      if (std::bit_cast<std::uint64_t>((*loads)[i]) != std::bit_cast<std::uint64_t>(guard_load))
-        return {"a load written past the last corner of all pairs"};
-    }
-  }
-  for (const ChunkTotals& chunk : chunk_totals_) {
-    if (chunk.unsound == no_pair) continue;
-    const BodyPair& pair = pairs_[chunk.unsound];
+/// Of the pairs of the wave that was evaluated last. Looks at loads only where the host takes them from.
+LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, const Wave& wave) const {
+  if (!loads_.intact()) return {"a load written past the last corner of all pairs"};
+  for (std::size_t i = wave.first_chunk(); i < wave.end_chunk(); ++i) {
+    if (chunk_totals_[i].unsound == no_pair) continue;
+    const BodyPair& pair = pairs_[chunk_totals_[i].unsound];
     return {"a report that is no number", true, pair.a, pair.b};
   }
+  const double *const load_x = loads_.x(), *const load_y = loads_.y();
   const auto sum_of = [&](const BodyPair& pair) {
     PairSum sum;
     double first_x = 0, first_y = 0;
@@ -53,7 +48,7 @@ LawFault ContactStage::fault(const Model& model, const MotionState& motion) cons
           const double x = motion.corners[c].x + (of_b ? pair.offset_x : 0);
           const double y = motion.corners[c].y + (of_b ? pair.offset_y : 0);
           if (p == pair.piece_pair_start && !of_b && c == begin) first_x = x, first_y = y;
-          const double fx = load_x_[load], fy = load_y_[load];
+          const double fx = load_x[load], fy = load_y[load];
           const double arm_x = x - first_x, arm_y = y - first_y;
           sum.x += fx, sum.y += fy, sum.moment += arm_x * fy - arm_y * fx;
           sum.size += std::abs(fx) + std::abs(fy);
@@ -66,7 +61,8 @@ LawFault ContactStage::fault(const Model& model, const MotionState& motion) cons
     return sum;
   };
   const double stiffest = stiffest_interface();
-  for (const BodyPair& pair : pairs_) {
+  for (std::size_t i = wave.begin; i < wave.end; ++i) {
+    const BodyPair& pair = pairs_[i];
     if (pair.contact_count == 0 || (!island_.empty() && sleeps(pair))) continue;
     const PairSum sum = sum_of(pair);
     if (!sum.finite) return {"a load that is no number", true, pair.a, pair.b};

@@ -25,6 +25,8 @@ bool ContactStage::sleeps(const BodyPair& pair) const {
 
 void ContactStage::hold_sleeping_pairs() {
   border_.clear();
+  still_.clear();
+  for (const std::uint32_t island : island_) still_.push_back(island != 0 ? 1 : 0);
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {
       ask_again_[i] = asleep;
@@ -32,7 +34,9 @@ void ContactStage::hold_sleeping_pairs() {
       continue;
     }
     if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;
-    if (!island_.empty() && (island_[pairs_[i].a] != 0 || island_[pairs_[i].b] != 0)) border_.push_back(i);
+    if (island_.empty() || (island_[pairs_[i].a] == 0 && island_[pairs_[i].b] == 0)) continue;
+    border_.push_back(i);
+    still_[pairs_[i].a] = still_[pairs_[i].b] = 0;
   }
 }
 

@@ -160,9 +160,13 @@ inline Vec2 sums(const Quad& p, const Quad& q) {
 /// Of a body with three or four corners.
 template <int count>
 inline void add_to_small(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
-                         std::size_t body, BodyForce& force) {
+                         const BodyLoads& body, BodyForce& force, Quad& all) {
   Quad x{}, y{}, px{}, py{};
-  for (std::uint32_t at = loads.start[body]; at != loads.start[body + 1]; ++at) {
+  if (body.begun) {
+    load(loads.sum_fx + body.sum, x);
+    load(loads.sum_fy + body.sum, y);
+  }
+  for (std::uint32_t at = body.begin; at != body.end; ++at) {
     const std::uint32_t from = loads.pieces[at].load;
     Quad more_x, more_y;
     load(loads.fx + from, more_x);
@@ -170,13 +174,21 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     x += more_x;
     y += more_y;
   }
+  if constexpr (count == 3) {
+    // What came last belongs to the next piece.
+    x = __builtin_shufflevector(x, Quad{}, 0, 1, 2, 4);
+    y = __builtin_shufflevector(y, Quad{}, 0, 1, 2, 4);
+  }
+  all += x + y;
+  if (body.goes_on) {
+    store(x, loads.sum_fx + body.sum);
+    store(y, loads.sum_fy + body.sum);
+    return;
+  }
   if constexpr (count == 4) {
     load(reference_x, px);
     load(reference_y, py);
   } else {
-    // What came last belongs to the next piece.
-    x = __builtin_shufflevector(x, Quad{}, 0, 1, 2, 4);
-    y = __builtin_shufflevector(y, Quad{}, 0, 1, 2, 4);
     for (int i = 0; i < 3; ++i) px[i] = reference_x[i];
     for (int i = 0; i < 3; ++i) py[i] = reference_y[i];
   }
@@ -190,19 +202,29 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
 }
 
 void add_to_any(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
-                std::size_t body, BodyForce& force) {
-  const std::uint32_t count = loads.corner_count[body];
+                const BodyLoads& body, BodyForce& force, double& all) {
+  const std::uint32_t count = loads.corner_count[body.body];
   constexpr std::uint32_t most = 16;
   double sum_x[most], sum_y[most];
   for (std::uint32_t part = 0; part < count; part += most) {
     const std::uint32_t here = count - part < most ? count - part : most;
-    for (std::uint32_t i = 0; i < here; ++i) sum_x[i] = sum_y[i] = 0;
-    for (std::uint32_t at = loads.start[body]; at != loads.start[body + 1]; ++at) {
+    double *const kept_x = loads.sum_fx + body.sum + part, *const kept_y = loads.sum_fy + body.sum + part;
+    for (std::uint32_t i = 0; i < here; ++i) {
+      sum_x[i] = body.begun ? kept_x[i] : 0;
+      sum_y[i] = body.begun ? kept_y[i] : 0;
+    }
+    for (std::uint32_t at = body.begin; at != body.end; ++at) {
       const std::uint32_t from = loads.pieces[at].load + part;
       for (std::uint32_t i = 0; i < here; ++i) sum_x[i] += loads.fx[from + i];
       for (std::uint32_t i = 0; i < here; ++i) sum_y[i] += loads.fy[from + i];
     }
     for (std::uint32_t i = 0; i < here; ++i) {
+      all += sum_x[i] + sum_y[i];
+      if (body.goes_on) {
+        kept_x[i] = sum_x[i];
+        kept_y[i] = sum_y[i];
+        continue;
+      }
       const double px = reference_x[part + i], py = reference_y[part + i];
       force.force.x += sum_x[i];
       force.force.y += sum_y[i];
@@ -214,21 +236,27 @@ void add_to_any(const double* reference_x, const double* reference_y, const Gath
   }
 }
 
-void add_loads(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
-               BodyForce* forces, std::size_t begin, std::size_t end) {
-  for (std::size_t body = begin; body < end; ++body) {
-    const double *x = reference_x + loads.corner_begin[body], *y = reference_y + loads.corner_begin[body];
-    switch (loads.corner_count[body]) {
+double add_loads(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
+                 BodyForce* forces, std::size_t begin, std::size_t end) {
+  double all = 0;
+  Quad all_small{};
+  for (std::size_t i = begin; i < end; ++i) {
+    const BodyLoads& body = loads.bodies[i];
+    const double *x = reference_x + loads.corner_begin[body.body],
+                 *y = reference_y + loads.corner_begin[body.body];
+    BodyForce& force = forces[body.body];
+    switch (loads.corner_count[body.body]) {
       case 3:
-        add_to_small<3>(x, y, loads, body, forces[body]);
+        add_to_small<3>(x, y, loads, body, force, all_small);
         break;
       case 4:
-        add_to_small<4>(x, y, loads, body, forces[body]);
+        add_to_small<4>(x, y, loads, body, force, all_small);
         break;
       default:
-        add_to_any(x, y, loads, body, forces[body]);
+        add_to_any(x, y, loads, body, force, all);
     }
   }
+  return all + ((all_small[0] + all_small[1]) + (all_small[2] + all_small[3]));
 }
 
 /// ½ pᵀ M q, twice over.

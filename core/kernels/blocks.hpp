@@ -34,13 +34,23 @@ struct PieceLoads {
   std::uint32_t piece;
 };
 
-/// The loads of all contacts, to be gathered by bodies.
+/// The loads on one body; where they are not all there are, their sums go on from one time to the next.
+struct BodyLoads {
+  std::uint32_t body;
+  std::uint32_t begin, end;  ///< in GatheredLoads::pieces
+  std::uint32_t sum;         ///< where its sums stand meanwhile, four of them at least
+  bool begun;                ///< there were some before
+  bool goes_on;              ///< there will be more
+};
+
+/// Loads of contacts, to be gathered by bodies.
 struct GatheredLoads {
   const std::uint32_t* corner_begin;  ///< [body]
   const std::uint32_t* corner_count;  ///< [body]
-  const std::uint32_t* start;         ///< [body + 1] in `pieces`
-  const PieceLoads* pieces;           ///< body after body
-  const double *fx, *fy;              ///< N/m; one more may be read than there are
+  const BodyLoads* bodies;
+  const PieceLoads* pieces;  ///< body after body
+  const double *fx, *fy;     ///< N/m; one more may be read than there are
+  double *sum_fx, *sum_fy;   ///< N/m, see BodyLoads::sum
 };
 
 /// How velocities are updated: v₊ = keep v₋ + gain (f/m + g); see StepConditions.
@@ -67,9 +77,10 @@ struct BlockKernels {
                  SpeedExtremes& speeds);
   /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
   void (*move)(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end);
-  /// Adds up the loads on bodies [begin, end) that are one convex piece, contact after contact (Eqs. 46–48).
-  void (*add_loads)(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
-                    BodyForce* forces, std::size_t begin, std::size_t end);
+  /// Adds up the loads on [begin, end) of the bodies, each one convex piece, contact after contact
+  /// (Eqs. 46–48). Returns what adding all loads gives: no finite number if one of them is none.
+  double (*add_loads)(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
+                      BodyForce* forces, std::size_t begin, std::size_t end);
   /// Eqs. 23–24 for the free bodies of [begin, end). `middle` gets the velocities at t_n, unless null.
   void (*accelerate)(const Block* blocks, const BodyForce* forces, const BlockUpdate& update,
                      BodyMotion* motion, BodyMotion* middle, std::size_t begin, std::size_t end,

@@ -139,6 +139,10 @@ struct Model {
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
   bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
+  /// Whether the body is convex itself.
+  bool one_piece(const Body& body) const {
+    return body.piece_end == body.piece_begin + 1 && is_strip[body.piece_begin] == 0;
+  }
 
   /// The first of a body's elements in `elements`, where those of a covered body lie side by side.
   std::uint32_t first_element(const Body& body) const { return body_element[body.element_begin]; }

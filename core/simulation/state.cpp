@@ -290,7 +290,7 @@ void Simulation::State::remember_deepest() {
   deepest_pair = {contact_totals.deepest_a, contact_totals.deepest_b};
 }
 
-/// Before contacts are evaluated with it: the loads are still those that led here.
+/// Before contacts are evaluated with it: the law's fault is still what led here.
 void Simulation::State::check_numbers() const {
   if (std::isfinite(speeds.largest)) return;
   if (contacts.law() != nullptr) check_law();
@@ -302,7 +302,7 @@ void Simulation::State::check_numbers() const {
 
 /// At output times, and where something is no number.
 void Simulation::State::check_law() const {
-  const LawFault fault = contacts.fault(model, motion);
+  const LawFault& fault = contacts.fault();
   if (fault.found.empty()) return;
   const RegisteredComponent& law = *scene.contact.component;
   const std::string where =

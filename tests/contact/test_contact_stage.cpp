@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+
 using namespace talus;
 
 namespace {
@@ -19,11 +21,11 @@ struct HeldStage {
   MotionState motion;
   ContactStage contacts;
 
-  HeldStage(const WorkingScene& text, Registry& registry)
+  HeldStage(const WorkingScene& text, Registry& registry, bool skin = true)
       : scene(text.read(registry)),
         model(build_model(scene)),
         motion(model),
-        contacts(scene, model, alone(), true) {}
+        contacts(scene, model, alone(), skin) {}
 
   ContactTotals evaluate(double dt = 1e-3) {
     for (BodyForce& force : motion.forces) force = {};
@@ -47,14 +49,14 @@ struct HeldStage {
 };
 
 /// A comb of seven teeth 1 m wide; the first, third and fifth are 0.5 m high, the others 1 mm less.
-std::string comb(double lowest) {
-  std::string polygon = fmt::format("[7, {0:.17g}], [0, {0:.17g}]", lowest + 2);
+std::string comb(double lowest, const std::string& name = "comb", double left = 0) {
+  std::string polygon = fmt::format("[{}, {:.17g}], [{}, {:.17g}]", left + 7, lowest + 2, left, lowest + 2);
   for (int i = 0; i < 7; ++i) {
     const double tip = lowest + (i % 2 == 0 && i < 6 ? 0 : 1e-3);
-    polygon += fmt::format(", [{}, {:.17g}], [{}, {:.17g}]", i, lowest + 0.5, i + 0.5, tip);
+    polygon += fmt::format(", [{}, {:.17g}], [{}, {:.17g}]", left + i, lowest + 0.5, left + i + 0.5, tip);
   }
-  polygon += fmt::format(", [7, {:.17g}]", lowest + 0.5);
-  return R"({"name": "comb", "material": "rock", "polygon": [)" + polygon + "]}";
+  polygon += fmt::format(", [{}, {:.17g}]", left + 7, lowest + 0.5);
+  return fmt::format(R"({{"name": "{}", "material": "rock", "polygon": [{}]}})", name, polygon);
 }
 
 WorkingScene combed() {
@@ -166,6 +168,75 @@ TEST_CASE("teeth that join later leave the springs of the first ones as they are
   stage.evaluate();
   REQUIRE(stage.pair(0, 1).contact_count == 7);
   CHECK(stage.motion.forces[1].force.x == Approx(sheared).epsilon(1e-9));
+}
+
+namespace {
+
+constexpr int rows = 48, apart = 40;
+
+/// A raft of blocks, combs on bases before and behind it, and blocks that are candidates by the skin alone.
+WorkingScene raft() {
+  WorkingScene text;
+  text.interface = combed().interface;
+  const auto combed_base = [](const std::string& name, double left) {
+    return box(name, left - 1, -1, left + 8, 0) + ", " + comb(0, "comb " + name, left);
+  };
+  text.bodies = combed_base("first", -100);
+  for (int i = 0; i < apart; ++i)
+    text.bodies += ", " + box(fmt::format("a{}", i), 1.05 * i, -50, 1.05 * i + 1, -49);
+  for (int i = 0; i < rows * rows; ++i) {
+    const int x = i % rows, y = i / rows;
+    text.bodies += ", " + box(fmt::format("b{}", i), x, y, x + 1, y + 1);
+  }
+  text.bodies += ", " + combed_base("last", 100);
+  return text;
+}
+
+/// Blocks then overlap those beside them by 1 mm and those below by 2 mm, and combs need more room than a
+/// pair begins with.
+void push_together(MotionState& motion) {
+  motion.bodies[1].u.y = motion.bodies.back().u.y = -3e-3;
+  for (int i = 0; i < rows * rows; ++i)
+    motion.bodies[2 + apart + static_cast<std::size_t>(i)].u = {-1e-3 * (i % rows), -2e-3 * (i / rows)};
+}
+
+}  // namespace
+
+TEST_CASE("bodies gather what all pairs report, wave after wave of them", "[contact][stage]") {
+  HeldStage stage(raft(), shipped_registry()), without_skin(raft(), shipped_registry(), false);
+  push_together(stage.motion);
+  push_together(without_skin.motion);
+  for (int step = 0; step < 2; ++step) {
+    stage.evaluate();
+    const auto pairs = stage.contacts.pairs();
+    REQUIRE(pairs.size() > 2 * pairs_of_wave);
+    CHECK(stage.pair(0, 1).contact_count == 7);
+    CHECK(pairs.back().contact_count == 7);
+    std::vector<Vec2> reported(stage.model.bodies.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (const ContactReport& report : stage.contacts.reports_of(i)) {
+        const double x = report.px + report.tx, y = report.py + report.ty;
+        reported[pairs[i].b].x += x, reported[pairs[i].b].y += y;
+        reported[pairs[i].a].x -= x, reported[pairs[i].a].y -= y;
+      }
+    }
+    double worst = 0, largest = 0;
+    for (std::size_t body = 0; body < reported.size(); ++body) {
+      const Vec2 force = stage.motion.forces[body].force;
+      worst = std::max({worst, std::abs(force.x - reported[body].x), std::abs(force.y - reported[body].y)});
+      largest = std::max({largest, std::abs(force.x), std::abs(force.y)});
+    }
+    CHECK(largest > 1e5);
+    CHECK(worst < 1e-9 * largest);
+
+    // Fewer pairs, so that other waves end with other pairs: no sum may show it.
+    without_skin.evaluate();
+    REQUIRE(without_skin.contacts.pairs().size() + apart - 1 == pairs.size());
+    for (std::size_t body = 0; body < reported.size(); ++body) {
+      const BodyForce &with = stage.motion.forces[body], &without = without_skin.motion.forces[body];
+      REQUIRE(std::memcmp(&with, &without, sizeof with) == 0);
+    }
+  }
 }
 
 TEST_CASE("a fixed body is master, and between moving bodies both are or the priority decides",

@@ -1,0 +1,191 @@
+#include "contact/wave_loads.hpp"
+
+#include "contact/room.hpp"
+#include "kernels/blocks.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+constexpr std::size_t guard_loads = 8;
+constexpr double guard_load = -1.2345678901234567e-300;
+constexpr std::uint32_t nowhere = 0xFFFFFFFFu;
+constexpr std::size_t body_chunk = 64;
+
+std::uint32_t corners_of(const Model& model, std::uint32_t piece) {
+  return model.piece_start[piece + 1] - model.piece_start[piece];
+}
+
+/// Calls take(body, loads on a piece of it) for the moving bodies of the pairs, in their order.
+template <class Take>
+void visit(const Model& model, std::span<const BodyPair> pairs, std::span<const PiecePair> piece_pairs,
+           const Take& take) {
+  for (const BodyPair& pair : pairs) {
+    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
+      const PiecePair& pieces = piece_pairs[p];
+      const std::uint32_t load_of_b = pieces.load_start + corners_of(model, pieces.a);
+      if (model.moves(pair.a)) take(pair.a, {pieces.load_start, pieces.a});
+      if (model.moves(pair.b)) take(pair.b, {load_of_b, pieces.b});
+    }
+  }
+}
+
+}  // namespace
+
+WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers)
+    : workers_(workers), kernels_(kernels::block_kernels(level)) {
+  for (const Body& body : model.bodies) {
+    corner_begin_.push_back(body.corner_begin);
+    corner_count_.push_back(model.one_piece(body) ? body.corner_end - body.corner_begin : 0);
+  }
+}
+
+void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
+                        std::span<PiecePair> piece_pairs) {
+  latest_.assign(model.bodies.size(), nowhere);
+  wave_bodies_.assign(1, 0);
+  bodies_.clear();
+  pieces_.clear();
+  make_room_in(pieces_, 2 * piece_pairs.size());
+  sum_x_.clear();
+  sum_y_.clear();
+  chunk_begin_.clear();
+  std::uint32_t most = 0;
+  for (std::size_t first = 0; first < pairs.size(); first += pairs_of_wave) {
+    const std::span<const BodyPair> wave =
+        pairs.subspan(first, std::min(pairs_of_wave, pairs.size() - first));
+    std::uint32_t loads = 0;
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+      if (i % pair_chunk == 0) chunk_begin_.push_back(loads);
+      for (std::uint32_t p = wave[i].piece_pair_start; p < wave[i].piece_pair_end; ++p) {
+        piece_pairs[p].load_start = loads;
+        loads += corners_of(model, piece_pairs[p].a) + corners_of(model, piece_pairs[p].b);
+      }
+    }
+    most = std::max(most, loads);
+    list_bodies(model, wave, piece_pairs);
+  }
+  for (std::vector<double>* values : {&x_, &y_}) {
+    make_room_in(*values, most + guard_loads);
+    values->assign(most, 0.0);
+    values->resize(most + guard_loads, guard_load);
+  }
+  written_ = false;
+}
+
+/// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
+void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
+                            std::span<const PiecePair> piece_pairs) {
+  const std::uint32_t first = wave_bodies_.back();
+  visit(model, wave, piece_pairs, [&](std::uint32_t body, const kernels::PieceLoads&) {
+    const std::uint32_t before = latest_[body];
+    if (before == nowhere || before < first) {
+      latest_[body] = static_cast<std::uint32_t>(bodies_.size());
+      bodies_.push_back({body, 0, 0, 0, before != nowhere, false});
+      if (before != nowhere) {
+        if (!bodies_[before].begun) {
+          bodies_[before].sum = static_cast<std::uint32_t>(sum_x_.size());
+          const std::size_t room = std::max<std::size_t>(corner_count_[body], 4);
+          for (std::vector<double>* sums : {&sum_x_, &sum_y_}) sums->resize(sums->size() + room);
+        }
+        bodies_[before].goes_on = true;
+        bodies_.back().sum = bodies_[before].sum;
+      }
+    }
+    ++bodies_[latest_[body]].end;
+  });
+  wave_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size()));
+  auto at = static_cast<std::uint32_t>(pieces_.size());
+  for (std::size_t i = first; i < bodies_.size(); ++i) {
+    const std::uint32_t count = bodies_[i].end;
+    bodies_[i].begin = bodies_[i].end = at;
+    at += count;
+  }
+  pieces_.resize(at);
+  visit(model, wave, piece_pairs, [&](std::uint32_t body, const kernels::PieceLoads& loads) {
+    pieces_[bodies_[latest_[body]].end++] = loads;
+  });
+}
+
+void WaveLoads::begin(std::size_t wave) {
+  wave_ = wave;
+  stale_ = written();
+  written_.store(false, std::memory_order_relaxed);
+}
+
+void WaveLoads::clear(std::size_t chunk) {
+  if (!stale_) return;
+  const std::size_t in_wave = chunk + 1, number = wave_ * (pairs_of_wave / pair_chunk) + in_wave;
+  const bool last = in_wave == pairs_of_wave / pair_chunk || number == chunk_begin_.size();
+  const std::size_t begin = chunk_begin_[number - 1];
+  const std::size_t end = last ? x_.size() - guard_loads : chunk_begin_[number];
+  for (std::vector<double>* values : {&x_, &y_})
+    std::fill(values->begin() + static_cast<std::ptrdiff_t>(begin),
+              values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+}
+
+bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState& motion) {
+  const std::size_t first = wave_bodies_[wave_], count = wave_bodies_[wave_ + 1] - first;
+  const kernels::GatheredLoads loads{corner_begin_.data(),
+                                     corner_count_.data(),
+                                     bodies_.data() + first,
+                                     pieces_.data(),
+                                     x_.data(),
+                                     y_.data(),
+                                     sum_x_.data(),
+                                     sum_y_.data()};
+  const auto one_piece = [&](std::size_t i) {
+    const std::uint32_t body = loads.bodies[i].body;
+    return corner_count_[body] != 0 && (still.empty() || still[body] == 0);
+  };
+  std::atomic<bool> sound{true};
+  workers_.over(count, body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    double all = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t run = i;
+      while (i < end && one_piece(i)) ++i;
+      all += kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(),
+                                motion.forces.data(), run, i);
+      if (i == end) break;
+      const kernels::BodyLoads& gathered = loads.bodies[i];
+      if (!still.empty() && still[gathered.body] != 0) continue;
+      for (std::uint32_t at = gathered.begin; at != gathered.end; ++at)
+        all += add_piece_loads(model, pieces_[at], motion);
+    }
+    if (!std::isfinite(all)) sound.store(false, std::memory_order_relaxed);
+  });
+  return sound;
+}
+
+/// Returns what adding all of them gives.
+double WaveLoads::add_piece_loads(const Model& model, const kernels::PieceLoads& loads,
+                                  MotionState& motion) const {
+  std::uint32_t load = loads.load;
+  if (model.is_strip[loads.piece] != 0) {
+    const BoundarySide& side = model.sides[model.strips[model.piece_strip[loads.piece]].side];
+    motion.add_force(side.start, {x_[load], y_[load]});
+    motion.add_force(side.end, {x_[load + 1], y_[load + 1]});
+    return (x_[load] + y_[load]) + (x_[load + 1] + y_[load + 1]);
+  }
+  double all = 0;
+  BodyForce& force = motion.forces[model.piece_body[loads.piece]];
+  for (std::uint32_t c = model.piece_start[loads.piece]; c < model.piece_start[loads.piece + 1];
+       ++c, ++load) {
+    force.add({model.reference_x[c], model.reference_y[c]}, {x_[load], y_[load]});
+    all += x_[load] + y_[load];
+  }
+  return all;
+}
+
+bool WaveLoads::intact() const {
+  const auto is_guard = [](double load) {
+    return std::bit_cast<std::uint64_t>(load) == std::bit_cast<std::uint64_t>(guard_load);
+  };
+  return std::all_of(x_.end() - guard_loads, x_.end(), is_guard) &&
+         std::all_of(y_.end() - guard_loads, y_.end(), is_guard);
+}
+
+}  // namespace talus

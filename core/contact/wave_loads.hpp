@@ -1,0 +1,73 @@
+#pragma once
+
+#include "kernels/level.hpp"
+#include "model/model.hpp"
+#include "model/motion.hpp"
+#include "parallel/workers.hpp"
+
+#include <talus/contact_model.hpp>
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+inline constexpr std::size_t pair_chunk = 256;  ///< pairs that a law is given at once
+/// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them, so
+/// many that threads seldom wait for each other.
+inline constexpr std::size_t pairs_of_wave = 16 * pair_chunk;
+
+/// The loads of pairs, wave after wave of them: what a law has written of one is gathered by the bodies
+/// before the next takes its place.
+class WaveLoads {
+ public:
+  WaveLoads(const Model& model, SimdLevel level, Workers& workers);
+
+  /// Gives all pieces of the pairs their PiecePair::load_start.
+  void lay_out(const Model& model, std::span<const BodyPair> pairs, std::span<PiecePair> piece_pairs);
+
+  std::size_t waves() const { return wave_bodies_.size() - 1; }
+
+  /// Until the next call the loads are those of this wave.
+  void begin(std::size_t wave);
+  /// Makes the loads of a chunk of the wave zero. Any thread, each chunk once.
+  void clear(std::size_t chunk);
+  /// Says that a law may write some. Any thread.
+  void expect() { written_.store(true, std::memory_order_relaxed); }
+  bool written() const { return written_.load(std::memory_order_relaxed); }
+
+  /// Adds what was written to the forces on moving bodies, contact after contact and in the order of pairs
+  /// (f_c of Eq. 48), but not on those that are `still` [body]; empty: none is. False if a load is no number.
+  bool add(const Model& model, std::span<const char> still, MotionState& motion);
+
+  double* x() { return x_.data(); }  ///< [load] N/m
+  double* y() { return y_.data(); }
+  const double* x() const { return x_.data(); }
+  const double* y() const { return y_.data(); }
+
+  /// Whether nobody wrote past the last load there can be.
+  bool intact() const;
+
+ private:
+  void list_bodies(const Model& model, std::span<const BodyPair> wave,
+                   std::span<const PiecePair> piece_pairs);
+  double add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
+
+  Workers& workers_;
+  const kernels::BlockKernels& kernels_;
+  std::vector<std::uint32_t> corner_begin_;    ///< [body]
+  std::vector<std::uint32_t> corner_count_;    ///< [body] of one that is one convex piece; else 0
+  std::vector<double> x_, y_;                  ///< and a guard behind them
+  std::vector<std::uint32_t> chunk_begin_;     ///< [chunk of pairs] its first load
+  std::vector<kernels::BodyLoads> bodies_;     ///< wave after wave
+  std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
+  std::vector<kernels::PieceLoads> pieces_;
+  std::vector<std::uint32_t> latest_;  ///< [body] in bodies_, while they are listed
+  std::vector<double> sum_x_, sum_y_;  ///< N/m, of bodies that gather from several waves
+  std::size_t wave_ = 0;
+  bool stale_ = false;  ///< loads of an earlier wave stand where those of the present one belong
+  std::atomic<bool> written_{false};
+};
+
+}  // namespace talus
