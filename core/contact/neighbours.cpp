@@ -1,5 +1,6 @@
 #include "contact/neighbours.hpp"
 
+#include "contact/room.hpp"
 #include "model/strips.hpp"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ void NeighbourSearch::fill_grid() {
       continue;
     }
     for (std::int64_t i = cell_of(box.low_x); i <= cell_of(box.high_x); ++i) {
-      for (std::int64_t j = cell_of(box.low_y); j <= cell_of(box.high_y); ++j) grid_.push_back({i, j, p});
+      for (std::int64_t j = cell_of(box.low_y); j <= cell_of(box.high_y); ++j) append_to(grid_, {i, j, p});
     }
   }
   std::sort(grid_.begin(), grid_.end());
@@ -78,8 +79,8 @@ void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q
   const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
   if (!model.moves(body_p) && !model.moves(body_q)) return;
   if (body_p == body_q && !may_meet_itself(model, p, q)) return;
-  candidates.push_back(body_p < body_q || (body_p == body_q && p < q) ? Candidate{body_p, body_q, p, q}
-                                                                      : Candidate{body_q, body_p, q, p});
+  append_to(candidates, body_p < body_q || (body_p == body_q && p < q) ? Candidate{body_p, body_q, p, q}
+                                                                       : Candidate{body_q, body_p, q, p});
 }
 
 void NeighbourSearch::find(const Model& model, const MotionState& motion, double skin,

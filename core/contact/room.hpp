@@ -12,4 +12,11 @@ void make_room_in(std::vector<T>& values, std::size_t wanted) {
   if (wanted > values.capacity()) values.reserve(wanted + wanted / 8);
 }
 
+/// One more, by the same rule.
+template <class T>
+void append_to(std::vector<T>& values, const T& value) {
+  make_room_in(values, values.size() + 1);
+  values.push_back(value);
+}
+
 }  // namespace talus

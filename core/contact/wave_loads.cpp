@@ -84,7 +84,7 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
     const std::uint32_t before = latest_[body];
     if (before == nowhere || before < first) {
       latest_[body] = static_cast<std::uint32_t>(bodies_.size());
-      bodies_.push_back({body, 0, 0, 0, before != nowhere, false});
+      append_to(bodies_, {body, 0, 0, 0, before != nowhere, false});
       if (before != nowhere) {
         if (!bodies_[before].begun) {
           bodies_[before].sum = static_cast<std::uint32_t>(sum_x_.size());

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct Loop {
 struct Support {
   std::optional<double> x, y;      ///< m/s, velocity of the centre of mass; 0 fixes it
   std::optional<double> rotation;  ///< rad/s
+
+  bool any() const { return x || y || rotation; }
 };
 
 /// An open polyline along which a body is cut; both faces belong to the surface class.
@@ -130,12 +133,18 @@ struct StageSettings {
   VectorFunction base_acceleration;  ///< m/s² of the ground; bodies feel its opposite
   Damping damping;
   std::vector<std::vector<double>> interface_values;  ///< [row][parameter] as in Scene
-  std::vector<Support> supports;                      ///< [body]
+  std::vector<Support> supports;                      ///< [body]; empty where no body has any
   std::vector<PointLoad> loads;
   std::vector<SurfaceLoad> surface_loads;
   std::vector<PrescribedSurface> prescribed;
   std::vector<AbsorbingSurface> absorbing;
 };
+
+/// Of a body, by StageSettings::supports.
+inline const Support& support_of(std::span<const Support> supports, std::size_t body) {
+  static constexpr Support none{};
+  return supports.empty() ? none : supports[body];
+}
 
 /// From a time on the scene goes on with other settings.
 struct Stage {

@@ -184,7 +184,10 @@ void read_stages(Reading& reading, Section& root, const Json& scene, const ReadA
 StageSettings settings_of(const Scene& scene) {
   StageSettings settings{scene.gravity, scene.base_acceleration, scene.damping,    scene.interface_values, {},
                          scene.loads,   scene.surface_loads,     scene.prescribed, scene.absorbing};
-  for (const SceneBody& body : scene.bodies) settings.supports.push_back(body.support);
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const SceneBody& body) { return body.support.any(); })) {
+    for (const SceneBody& body : scene.bodies) settings.supports.push_back(body.support);
+  }
   return settings;
 }
 

@@ -83,10 +83,8 @@ void Blocks::over_chunks(const Each& each) {
 }
 
 void Blocks::set_supports(std::span<const Support> supports) {
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Support& support = supports[i];
-    blocks_[i].free = blocks_[i].mass > 0 && !support.x && !support.y && !support.rotation;
-  }
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    blocks_[i].free = blocks_[i].mass > 0 && !support_of(supports, i).any();
   left_to_others_.clear();
   for (const std::uint32_t body : moving_) {
     if (!blocks_[body].free) left_to_others_.push_back(body);

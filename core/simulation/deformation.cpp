@@ -22,7 +22,7 @@ Deformation::Deformation(const Scene& scene, const Model& model, Workers& worker
       workers_(workers),
       workspaces_(static_cast<std::size_t>(workers.threads()), sweep_.workspace()),
       sums_(model.partition.subdomains.size()),
-      updated_(model.bodies.size()) {
+      updated_(model.covered_bodies.empty() ? 0 : model.bodies.size()) {
   lay_out_blocks(model, {});
 }
 
@@ -67,8 +67,7 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
   const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
-    const Support& support = supports[b];
-    updated_[b] = {!support.x && !support.y && !support.rotation, {}};
+    updated_[b] = {!support_of(supports, b).any(), {}};
     SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = updated_[b].done};
     step.velocity = {
         update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};

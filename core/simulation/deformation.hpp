@@ -41,7 +41,7 @@ class Deformation {
   /// J/m, in a body that moves as a whole, where energies are kept.
   double stored_in(const Model& model, std::uint32_t body) const;
 
-  /// [body] what the last call did to own patches.
+  /// [body] what the last call did to own patches; empty where no body has any.
   const std::vector<OwnPatches>& updated() const { return updated_; }
 
   /// Cauchy stress xx, yy, xy, Pa, of an element, when stresses were last kept.

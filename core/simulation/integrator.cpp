@@ -153,16 +153,16 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
     if (blocks.is_asleep(i)) continue;
     const Body& body = model.bodies[i];
     if (body.kinematics == Kinematics::covered) {
-      accelerate_patches(model, mass, i, supports[i], conditions, update,
+      accelerate_patches(model, mass, i, support_of(supports, i), conditions, update,
                          updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
       continue;
     }
-    accelerate_whole(body, motion.forces[i], supports[i], conditions, update, motion.bodies[i],
+    accelerate_whole(body, motion.forces[i], support_of(supports, i), conditions, update, motion.bodies[i],
                      at_step.bodies[i], work);
   }
   blocks.over_scaled(work, [&](std::uint32_t i, AccelerationWork& part) {
-    accelerate_whole(model.bodies[i], motion.forces[i], supports[i], conditions, update, motion.bodies[i],
-                     at_step.bodies[i], part);
+    accelerate_whole(model.bodies[i], motion.forces[i], support_of(supports, i), conditions, update,
+                     motion.bodies[i], at_step.bodies[i], part);
   });
   return work;
 }

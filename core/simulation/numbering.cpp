@@ -48,6 +48,7 @@ Numbering numbering_of(const Scene& scene) {
 Scene renumbered(Scene scene, const Numbering& numbering) {
   if (numbering.outer.empty()) return scene;
   const auto reorder = [&](auto& of_bodies) {
+    if (of_bodies.empty()) return;
     auto listed = std::move(of_bodies);
     of_bodies.clear();
     for (const std::uint32_t body : numbering.outer) of_bodies.push_back(std::move(listed[body]));

@@ -28,7 +28,7 @@ std::vector<SteadyPatch> heavier_patches(const Model& model, const Body& body) {
 
 }  // namespace
 
-PatchMass::PatchMass(const Model& model) : core_inverse_(model.bodies.size()) {
+PatchMass::PatchMass(const Model& model) : core_inverse_(model.steady.empty() ? 0 : model.bodies.size()) {
   inverse_.reserve(model.patch_mass.size());
   for (const double mass : model.patch_mass) inverse_.push_back(mass > 0 ? 1 / mass : 0);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -74,7 +74,7 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
     patches[p].x *= inverse_[p];
     patches[p].y *= inverse_[p];
   }
-  const std::vector<double>& core = core_inverse_[index];
+  const std::span<const double> core = core_inverse(index);
   if (!core.empty()) {
     static thread_local std::vector<Vec2> deviations;  // keeps its room: a step asks for no memory
     deviations.clear();
@@ -124,7 +124,7 @@ double PatchMass::product(const Model& model, std::uint32_t index, std::uint32_t
     const Vec2 a = p[i - first], b = q[i - first];
     sum += model.patch_mass[i] * (a.x * b.x + a.y * b.y);
   }
-  if (core_inverse_[index].empty()) return sum;
+  if (core_inverse(index).empty()) return sum;
   for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (!std::isfinite(steady.inertia)) continue;

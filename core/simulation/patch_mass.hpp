@@ -39,8 +39,14 @@ class PatchMass {
   const std::vector<double>& inverse() const { return inverse_; }
 
  private:
+  /// (I⁻¹ + RᵀD⁻¹R)⁻¹ of a body, row by row; empty for most.
+  std::span<const double> core_inverse(std::size_t body) const {
+    if (core_inverse_.empty()) return {};
+    return core_inverse_[body];
+  }
+
   std::vector<double> inverse_;                    ///< [patch] 1/m; 0 where there is none
-  std::vector<std::vector<double>> core_inverse_;  ///< [body] (I⁻¹ + RᵀD⁻¹R)⁻¹, row by row; empty for most
+  std::vector<std::vector<double>> core_inverse_;  ///< [body]; empty where no patch is steadied
 };
 
 }  // namespace talus
