@@ -218,7 +218,7 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
 void ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
                             double until) {
   const auto close_chunk = [&](std::size_t chunk, std::span<const std::uint32_t> active, Workspace& found) {
-    close(chunk, active, found);
+    close(model, chunk, active, found);
   };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     const Wave now = wave(number);
@@ -250,6 +250,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
         });
   }
   interfaces_.value = interface_values_.data();
+  loads_.renew();  // with other parameters a law may find contact where it finds none now
   const ContactTotals found = totals();
   return found.stored + found.slip_loss;
 }
@@ -263,7 +264,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
                               clear_depth_.data()};
   if (anew) loads_.begin(wave.number);
   const auto ask_chunk = [&](std::size_t in_wave, std::size_t begin, std::size_t end, std::size_t thread) {
-    if (anew) loads_.clear(in_wave);
+    if (anew) loads_.prepare(in_wave);
     Workspace& found = workspaces_[thread];
     begin += wave.begin, end += wave.begin;
     const std::uint32_t count = choose_active(begin, end, until, found.active);
@@ -311,7 +312,8 @@ std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end, do
 
 /// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
 /// that is short of room is left as it was, to be asked about again.
-void ContactStage::close(std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
+void ContactStage::close(const Model& model, std::size_t chunk, std::span<const std::uint32_t> active,
+                         const Workspace& found) {
   const std::size_t begin = chunk * pair_chunk;
   const double travelled = travelled_;
   const bool skin = skin_ > 0;
@@ -335,6 +337,7 @@ void ContactStage::close(std::size_t chunk, std::span<const std::uint32_t> activ
     totals.slip_loss += report.slip_loss;
     if (stored != nullptr) stored[i] = report.stored;
     if (report.contact_count == 0) {
+      if (pair.contact_count != 0) fill_loads(model, pair, 0);
       pair.contact_count = 0;
       damping_power[i] = 0;
       ask_again[i] = skin ? travelled + report.gap / 2 : 0;
@@ -384,16 +387,11 @@ ContactTotals ContactStage::totals() const {
   return totals;
 }
 
-#ifdef TALUS_AUDIT
 void ContactStage::fill_loads(const Model& model, const BodyPair& pair, double value) {
-  const PiecePair &first = piece_pairs_[pair.piece_pair_start], &last = piece_pairs_[pair.piece_pair_end - 1];
-  const auto corners = [&](std::uint32_t piece) {
-    return model.piece_start[piece + 1] - model.piece_start[piece];
-  };
-  const std::uint32_t end = last.load_start + corners(last.a) + corners(last.b);
-  std::fill(loads_.x() + first.load_start, loads_.x() + end, value);
-  std::fill(loads_.y() + first.load_start, loads_.y() + end, value);
+  loads_.fill(
+      model,
+      std::span(piece_pairs_).subspan(pair.piece_pair_start, pair.piece_pair_end - pair.piece_pair_start),
+      value);
 }
-#endif
 
 }  // namespace talus

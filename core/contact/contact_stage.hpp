@@ -118,8 +118,8 @@ class ContactStage {
     std::size_t end_chunk() const { return (end + pair_chunk - 1) / pair_chunk; }
   };
   Wave wave(std::size_t number) const {
-    const std::size_t begin = number * pairs_of_wave;
-    return {number, begin, std::min(begin + pairs_of_wave, pairs_.size())};
+    const std::size_t size = pairs_of_wave(workers_.threads()), begin = number * size;
+    return {number, begin, std::min(begin + size, pairs_.size())};
   }
   void evaluate(const Model& model, MotionState& motion, const Conditions& conditions, double until);
   template <class Each>
@@ -127,7 +127,8 @@ class ContactStage {
            double until, bool anew, const Each& each);
   std::uint32_t choose_active(std::size_t begin, std::size_t end, double until,
                               std::vector<std::uint32_t>& active) const;
-  void close(std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found);
+  void close(const Model& model, std::size_t chunk, std::span<const std::uint32_t> active,
+             const Workspace& found);
   static std::uint32_t first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
@@ -136,9 +137,7 @@ class ContactStage {
     return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk()),
                        chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
   }
-#ifdef TALUS_AUDIT
   void fill_loads(const Model& model, const BodyPair& pair, double value);
-#endif
   LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;

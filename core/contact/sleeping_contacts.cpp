@@ -24,6 +24,7 @@ bool ContactStage::sleeps(const BodyPair& pair) const {
 }
 
 void ContactStage::hold_sleeping_pairs() {
+  loads_.renew();  // what sleeps has none
   border_.clear();
   still_.clear();
   for (const std::uint32_t island : island_) still_.push_back(island != 0 ? 1 : 0);

@@ -36,7 +36,9 @@ void visit(const Model& model, std::span<const BodyPair> pairs, std::span<const 
 }  // namespace
 
 WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers)
-    : workers_(workers), kernels_(kernels::block_kernels(level)) {
+    : workers_(workers),
+      kernels_(kernels::block_kernels(level)),
+      wave_size_(pairs_of_wave(workers.threads())) {
   for (const Body& body : model.bodies) {
     corner_begin_.push_back(body.corner_begin);
     corner_count_.push_back(model.one_piece(body) ? body.corner_end - body.corner_begin : 0);
@@ -54,9 +56,8 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
   sum_y_.clear();
   chunk_begin_.clear();
   std::uint32_t most = 0;
-  for (std::size_t first = 0; first < pairs.size(); first += pairs_of_wave) {
-    const std::span<const BodyPair> wave =
-        pairs.subspan(first, std::min(pairs_of_wave, pairs.size() - first));
+  for (std::size_t first = 0; first < pairs.size(); first += wave_size_) {
+    const std::span<const BodyPair> wave = pairs.subspan(first, std::min(wave_size_, pairs.size() - first));
     std::uint32_t loads = 0;
     for (std::size_t i = 0; i < wave.size(); ++i) {
       if (i % pair_chunk == 0) chunk_begin_.push_back(loads);
@@ -74,6 +75,7 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
     values->resize(most + guard_loads, guard_load);
   }
   written_ = false;
+  renewed_ = false;
 }
 
 /// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
@@ -112,19 +114,28 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
 
 void WaveLoads::begin(std::size_t wave) {
   wave_ = wave;
-  stale_ = written();
+  stale_ = renewed_ || (written() && waves() > 1);
   written_.store(false, std::memory_order_relaxed);
+  if (wave + 1 == waves()) renewed_ = false;
 }
 
-void WaveLoads::clear(std::size_t chunk) {
+void WaveLoads::prepare(std::size_t chunk) {
   if (!stale_) return;
-  const std::size_t in_wave = chunk + 1, number = wave_ * (pairs_of_wave / pair_chunk) + in_wave;
-  const bool last = in_wave == pairs_of_wave / pair_chunk || number == chunk_begin_.size();
+  const std::size_t in_wave = chunk + 1, number = wave_ * (wave_size_ / pair_chunk) + in_wave;
+  const bool last = in_wave == wave_size_ / pair_chunk || number == chunk_begin_.size();
   const std::size_t begin = chunk_begin_[number - 1];
   const std::size_t end = last ? x_.size() - guard_loads : chunk_begin_[number];
   for (std::vector<double>* values : {&x_, &y_})
     std::fill(values->begin() + static_cast<std::ptrdiff_t>(begin),
               values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+}
+
+void WaveLoads::fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value) {
+  const PiecePair& last = pieces_of_pair.back();
+  const std::uint32_t begin = pieces_of_pair.front().load_start;
+  const std::uint32_t end = last.load_start + corners_of(model, last.a) + corners_of(model, last.b);
+  std::fill(x() + begin, x() + end, value);
+  std::fill(y() + begin, y() + end, value);
 }
 
 bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState& motion) {

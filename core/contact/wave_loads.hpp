@@ -14,9 +14,11 @@
 namespace talus {
 
 inline constexpr std::size_t pair_chunk = 256;  ///< pairs that a law is given at once
-/// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them, so
-/// many that threads seldom wait for each other.
-inline constexpr std::size_t pairs_of_wave = 16 * pair_chunk;
+/// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them.
+/// Several threads wait for each other after each wave, so theirs are larger. No result shows which.
+constexpr std::size_t pairs_of_wave(int threads) {
+  return (threads == 1 ? 16 : 1024) * pair_chunk;
+}
 
 /// The loads of pairs, wave after wave of them: what a law has written of one is gathered by the bodies
 /// before the next takes its place.
@@ -29,12 +31,19 @@ class WaveLoads {
 
   std::size_t waves() const { return wave_bodies_.size() - 1; }
 
-  /// Until the next call the loads are those of this wave.
+  /// Until the next call the loads are those of this wave. Those of pairs that are not asked about are zero,
+  /// if those of pairs that part were filled with zeros.
   void begin(std::size_t wave);
-  /// Makes the loads of a chunk of the wave zero. Any thread, each chunk once.
-  void clear(std::size_t chunk);
+  /// Before a law writes loads of a chunk of the wave, and where it writes none. Any thread, each chunk once.
+  void prepare(std::size_t chunk);
+  /// Sets all loads of a pair, N/m.
+  void fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value);
+  /// Makes all loads zero as the next waves begin.
+  void renew() { renewed_ = true; }
   /// Says that a law may write some. Any thread.
-  void expect() { written_.store(true, std::memory_order_relaxed); }
+  void expect() {
+    if (!written()) written_.store(true, std::memory_order_relaxed);
+  }
   bool written() const { return written_.load(std::memory_order_relaxed); }
 
   /// Adds what was written to the forces on moving bodies, contact after contact and in the order of pairs
@@ -66,7 +75,9 @@ class WaveLoads {
   std::vector<std::uint32_t> latest_;  ///< [body] in bodies_, while they are listed
   std::vector<double> sum_x_, sum_y_;  ///< N/m, of bodies that gather from several waves
   std::size_t wave_ = 0;
-  bool stale_ = false;  ///< loads of an earlier wave stand where those of the present one belong
+  std::size_t wave_size_;  ///< pairs
+  bool renewed_ = false;
+  bool stale_ = false;  ///< other loads stand where those of the present wave belong
   std::atomic<bool> written_{false};
 };
 
