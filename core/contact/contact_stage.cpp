@@ -227,7 +227,7 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
       make_room();
       ask(model, motion, conditions, now, in_this_step, false, close_chunk);
     }
-    if (!loads_.written()) continue;
+    if (!loads_.due()) continue;
     const bool finite = loads_.add(model, still_, motion);
     const bool unsound = any_chunk(now, [](const ChunkTotals& chunk) { return chunk.unsound != no_pair; });
     if ((conditions.observed || unsound || !finite) && fault_.found.empty())

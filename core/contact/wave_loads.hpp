@@ -44,7 +44,8 @@ class WaveLoads {
   void expect() {
     if (!written()) written_.store(true, std::memory_order_relaxed);
   }
-  bool written() const { return written_.load(std::memory_order_relaxed); }
+  /// Whether there is anything to add: a wave without loads may still end sums that others began.
+  bool due() const { return written() || waves() > 1; }
 
   /// Adds what was written to the forces on moving bodies, contact after contact and in the order of pairs
   /// (f_c of Eq. 48), but not on those that are `still` [body]; empty: none is. False if a load is no number.
@@ -59,6 +60,7 @@ class WaveLoads {
   bool intact() const;
 
  private:
+  bool written() const { return written_.load(std::memory_order_relaxed); }
   void list_bodies(const Model& model, std::span<const BodyPair> wave,
                    std::span<const PiecePair> piece_pairs);
   double add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;

@@ -239,6 +239,33 @@ TEST_CASE("bodies gather what all pairs report, wave after wave of them", "[cont
   }
 }
 
+TEST_CASE("loads of a wave reach bodies whose later waves have nothing to ask about", "[contact][stage]") {
+  HeldStage stage(raft(), shipped_registry());
+  constexpr int last_row = 21;  // that touches the row below, and no block beside it
+  for (int i = 0; i < rows * rows; ++i) {
+    const int x = i % rows, y = i / rows;
+    stage.motion.bodies[2 + apart + static_cast<std::size_t>(i)].u = {
+        (y < last_row - 1 ? -1e-3 : 2e-2) * x,
+        -2e-3 * std::min(y, last_row) + 2e-2 * std::max(y - last_row, 0)};
+  }
+  stage.evaluate();
+  const std::vector<BodyForce> asked = stage.motion.forces;
+  const auto pairs = stage.contacts.pairs();
+  const auto later = pairs.subspan(pairs_of_wave(1));
+  REQUIRE(std::all_of(later.begin(), later.end(), [](const auto& pair) { return pair.contact_count == 0; }));
+  const auto straddles = [&](const BodyPair& pair) {
+    return pair.contact_count != 0 && std::any_of(later.begin(), later.end(), [&](const BodyPair& other) {
+             return other.a == pair.b || other.b == pair.b;
+           });
+  };
+  REQUIRE(std::any_of(pairs.begin(), pairs.end(), straddles));
+
+  for (BodyForce& force : stage.motion.forces) force = {};
+  stage.contacts.evaluate(stage.model, stage.motion, {1e-3, true, false});
+  for (std::size_t body = 0; body < asked.size(); ++body)
+    REQUIRE(std::memcmp(&asked[body], &stage.motion.forces[body], sizeof asked[body]) == 0);
+}
+
 TEST_CASE("a fixed body is master, and between moving bodies both are or the priority decides",
           "[contact][stage]") {
   WorkingScene text;
