@@ -208,10 +208,10 @@ void add_to_any(const double* reference_x, const double* reference_y, const Gath
   double sum_x[most], sum_y[most];
   for (std::uint32_t part = 0; part < count; part += most) {
     const std::uint32_t here = count - part < most ? count - part : most;
-    double *const kept_x = loads.sum_fx + body.sum + part, *const kept_y = loads.sum_fy + body.sum + part;
+    const std::uint32_t kept = body.sum + part;
     for (std::uint32_t i = 0; i < here; ++i) {
-      sum_x[i] = body.begun ? kept_x[i] : 0;
-      sum_y[i] = body.begun ? kept_y[i] : 0;
+      sum_x[i] = body.begun ? loads.sum_fx[kept + i] : 0;
+      sum_y[i] = body.begun ? loads.sum_fy[kept + i] : 0;
     }
     for (std::uint32_t at = body.begin; at != body.end; ++at) {
       const std::uint32_t from = loads.pieces[at].load + part;
@@ -221,8 +221,8 @@ void add_to_any(const double* reference_x, const double* reference_y, const Gath
     for (std::uint32_t i = 0; i < here; ++i) {
       all += sum_x[i] + sum_y[i];
       if (body.goes_on) {
-        kept_x[i] = sum_x[i];
-        kept_y[i] = sum_y[i];
+        loads.sum_fx[kept + i] = sum_x[i];
+        loads.sum_fy[kept + i] = sum_y[i];
         continue;
       }
       const double px = reference_x[part + i], py = reference_y[part + i];
