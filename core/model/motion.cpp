@@ -180,26 +180,9 @@ void MotionState::measure_sides(const Model& model, std::size_t body) {
   }
 }
 
-double torque(const BodyMotion& m, const BodyForce& f) {
-  const Matrix2& q = f.moment;
-  return (1 + m.h.xx) * q.yx + m.h.xy * q.yy - m.h.yx * q.xx - (1 + m.h.yy) * q.xy;
-}
-
 Matrix2 rotation_of(const Matrix2& h) {
   const double c = 2 + h.xx + h.yy, s = h.yx - h.xy, size = std::sqrt(c * c + s * s);
   return {c / size - 1, -s / size, s / size, c / size - 1};
-}
-
-Matrix2 turned(const Matrix2& h, double angle) {
-  const double a2 = angle * angle;
-  const double sine = angle * (1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42)));
-  const double cosine = 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30));
-  const double c = 1 + h.xx, s = h.yx;
-  double turned_c = cosine * c - sine * s, turned_s = sine * c + cosine * s;
-  const double size = std::sqrt(turned_c * turned_c + turned_s * turned_s);
-  turned_c /= size;
-  turned_s /= size;
-  return {turned_c - 1, -turned_s, turned_s, turned_c - 1};
 }
 
 }  // namespace talus

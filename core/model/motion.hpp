@@ -94,13 +94,12 @@ Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values);
 Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values);
 
 /// ΣF r × F of a body force about the displaced centroid, N.
-double torque(const BodyMotion& motion, const BodyForce& force);
+inline double torque(const BodyMotion& motion, const BodyForce& force) {
+  const Matrix2 &h = motion.h, &q = force.moment;
+  return (1 + h.xx) * q.yx + h.xy * q.yy - h.yx * q.xx - (1 + h.yy) * q.xy;
+}
 
 /// R − I, R the rotation of the polar decomposition of I + H.
 Matrix2 rotation_of(const Matrix2& h);
-
-/// Turns H = R − I by an angle, without trigonometry in the step: series to the seventh order, then
-/// normalised.
-Matrix2 turned(const Matrix2& h, double angle);
 
 }  // namespace talus
