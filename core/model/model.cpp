@@ -46,7 +46,6 @@ void add_pieces(Model& model, const SceneBody& scene_body, const Body& body, std
       model.reference_y.push_back(corner.at.y - body.centre.y);
       model.surface.push_back(corner.surface);
       model.cut.push_back(corner.cut);
-      model.corner_body.push_back(index);
     }
     model.piece_body.push_back(index);
     model.piece_start.push_back(static_cast<std::uint32_t>(model.surface.size()));
@@ -229,9 +228,9 @@ Model build_model(const Scene& scene) {
   if (model.covered_bodies.empty()) model.element_region.clear();
   for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   const auto fit = [](auto&... grown) { (grown.shrink_to_fit(), ...); };
-  fit(model.reference_x, model.reference_y, model.surface, model.cut, model.corner_body, model.piece_start,
-      model.piece_body, model.is_strip, model.piece_strip, model.strips, model.competitors, model.sides,
-      model.next_side, model.previous_side, model.side_size, model.elements, model.element_region);
+  fit(model.reference_x, model.reference_y, model.surface, model.cut, model.piece_start, model.piece_body,
+      model.is_strip, model.piece_strip, model.strips, model.competitors, model.sides, model.next_side,
+      model.previous_side, model.side_size, model.elements, model.element_region);
   return model;
 }
 

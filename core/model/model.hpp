@@ -106,7 +106,6 @@ struct Model {
   // Corners of the pieces of all bodies (see talus::Boundaries).
   std::vector<double> reference_x, reference_y;  ///< [corner] m, X
   std::vector<std::uint32_t> surface, cut;       ///< [corner]
-  std::vector<std::uint32_t> corner_body;        ///< [corner]
   std::vector<std::uint32_t> piece_start;        ///< [piece + 1]
   std::vector<std::uint32_t> piece_body;         ///< [piece]
   std::vector<std::uint8_t> is_strip;            ///< [piece]

@@ -190,7 +190,6 @@ void add_strips(Model& model, std::uint32_t index) {
                                                    : model.sides[side].start.reference.y);
       model.surface.push_back(c == 0 ? model.sides[side].surface : internal_side);
       model.cut.push_back(static_cast<std::uint32_t>(model.cut.size()));
-      model.corner_body.push_back(index);
     }
     model.piece_body.push_back(index);
     model.piece_start.push_back(static_cast<std::uint32_t>(model.surface.size()));

@@ -30,6 +30,7 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_co
       moving_(model.moving_bodies),
       left_to_others_(moving_),
       in_contact_(in_contact) {
+  blocks_.reserve(model.bodies.size());
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     kernels::Block& block = blocks_.emplace_back();
