@@ -132,7 +132,7 @@ void follow(const Block* blocks, const BodyMotion* motion, const double* referen
 }
 
 /// H = R − I turned by an angle, without trigonometry in the step: series to the seventh order, then
-/// normalised. No number known beforehand is divided by, which took longer than the rest.
+/// normalised. No number known beforehand is divided by: such divisions took some third of moving a body.
 inline Matrix2 turned(const Matrix2& h, double angle) {
   const double a2 = angle * angle;
   const double sine = angle * (1 - a2 * (1.0 / 6) * (1 - a2 * (1.0 / 20) * (1 - a2 * (1.0 / 42))));
