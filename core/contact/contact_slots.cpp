@@ -2,30 +2,41 @@
 #include "contact/room.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace talus {
 
 /// Gives every pair its contact slots, one pair after the other, and moves its contacts there. Where they are
 /// now slot_start tells, counted from the first of all, rising from pair to pair.
 void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
-  const std::size_t chunks = (pairs_.size() + pair_chunk - 1) / pair_chunk;
-  slot_base_.assign(chunks + 1, 0);
-  for (std::size_t i = 0; i < pairs_.size(); ++i) slot_base_[i / pair_chunk + 1] += capacities[i];
-  std::uint32_t most = 0;
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    most = std::max(most, slot_base_[chunk + 1]);
-    slot_base_[chunk + 1] += slot_base_[chunk];
+  slot_base_.assign(1, 0);
+  std::size_t most = 0, most_slots = 0;
+  for (std::size_t batch = 0; batch + 1 < batch_begin_.size(); ++batch) {
+    const auto begin = capacities.begin() + batch_begin_[batch],
+               end = capacities.begin() + batch_begin_[batch + 1];
+    const std::uint32_t slots = std::accumulate(begin, end, 0U);
+    append_to(slot_base_, slot_base_.back() + slots);
+    most = std::max(most, static_cast<std::size_t>(end - begin));
+    most_slots = std::max(most_slots, std::size_t{slots});
   }
+  const auto give_room = [](auto& values, std::size_t wanted) {
+    make_room_in(values, wanted);
+    values.resize(wanted);
+  };
   for (Workspace& workspace : workspaces_) {
-    make_room_in(workspace.history, std::size_t{most} * history_doubles_);
-    workspace.history.resize(std::size_t{most} * history_doubles_);
+    give_room(workspace.active, most);
+    give_room(workspace.reports, most);
+    give_room(workspace.history, most_slots * history_doubles_);
   }
   move_slots(1, capacities, reports_);
   move_slots(history_doubles_, capacities, history_);
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    BodyPair& pair = pairs_[i];
-    pair.slot_start = i % pair_chunk == 0 ? 0 : pairs_[i - 1].slot_start + pairs_[i - 1].slot_capacity;
-    pair.slot_capacity = capacities[i];
+  for (std::size_t batch = 0; batch + 1 < batch_begin_.size(); ++batch) {
+    std::uint32_t slot = 0;
+    for (std::size_t i = batch_begin_[batch]; i < batch_begin_[batch + 1]; ++i) {
+      pairs_[i].slot_start = slot;
+      pairs_[i].slot_capacity = capacities[i];
+      slot += capacities[i];
+    }
   }
 }
 

@@ -1,13 +1,11 @@
 #include "contact/contact_stage.hpp"
 
-#include "contact/room.hpp"
 #include "geometry/vanishing_depth.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 namespace talus {
 namespace {
@@ -15,10 +13,6 @@ namespace {
 /// Skin as a share of the mean width of the moving bodies: at the speeds of the shipped scenes a search
 /// serves some 40 to 200 steps, and few pairs are candidates that do not touch.
 constexpr double skin_share = 0.1;
-/// Share of the mean width by which boxes are grown at least: bodies that only rounding makes overlap are
-/// candidates with the skin off, too.
-constexpr double rounding = 1e-9;
-constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
 /// Share of the vanishing depth at the start that a law may count on: bodies strain. Measured once, for what
 /// a law does must not depend on when neighbours were sought.
 constexpr double clear_share = 0.8;
@@ -95,115 +89,6 @@ double ContactStage::master_share(std::uint32_t a, std::uint32_t b) const {
   return priority_[a] > priority_[b] ? 1 : 0;
 }
 
-bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {
-  if (!law_) return false;
-  // Both bodies of a pair may have moved; the boxes leave half of what is near to each.
-  slack_ -= travelled;
-  travelled_ += travelled;
-  const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
-  if (!due && !every_step) return false;
-  const double rounded = rounding * model.mean_width;
-  if (due) {
-    search_.find(model, motion, std::max(near_, rounded), candidates_);
-    note_neighbours(model);
-    slack_ = near_ / 2;
-  }
-  if (every_step) search_.find(model, motion, rounded, candidates_);
-  rebuild_pairs(model);
-  travelled_ = 0;
-  ++searches_;
-  return due;
-}
-
-void ContactStage::note_neighbours(const Model& model) {
-  lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
-  for (const Candidate& candidate : candidates_) {
-    const std::uint32_t a = candidate.body_a, b = candidate.body_b;
-    if (fixed_[a] != 0 || fixed_[b] != 0) continue;
-    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], model.bodies[b].contact_mass);
-    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], model.bodies[a].contact_mass);
-  }
-}
-
-void ContactStage::rebuild_pairs(const Model& model) {
-  former_pairs_.clear();
-  make_room_in(former_pairs_, pairs_.size());
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const BodyPair& pair = pairs_[i];
-    former_pairs_.push_back(
-        {pair.a, pair.b, slot_of(i), pair.slot_capacity, pair.contact_count, damping_power_[i]});
-  }
-  pairs_.clear();
-  piece_pairs_.clear();
-  const auto same_bodies = [](const Candidate& p, const Candidate& q) {
-    return p.body_a == q.body_a && p.body_b == q.body_b;
-  };
-  std::size_t repeated = 0;
-  for (std::size_t i = 1; i < candidates_.size(); ++i)
-    repeated += same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
-  make_room_in(pairs_, candidates_.size() - repeated);
-  make_room_in(piece_pairs_, candidates_.size());
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const Candidate& candidate = candidates_[i];
-    if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {
-      const Body &a = model.bodies[candidate.body_a], &b = model.bodies[candidate.body_b];
-      const double reduced_mass = fixed_[candidate.body_a] ? b.contact_mass
-                                  : fixed_[candidate.body_b]
-                                      ? a.contact_mass
-                                      : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
-      const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
-      BodyPair pair{};
-      pair.a = candidate.body_a, pair.b = candidate.body_b;
-      pair.piece_pair_start = first;
-      pair.master_share = master_share(pair.a, pair.b);
-      pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
-      pair.reduced_mass = reduced_mass;
-      pairs_.push_back(pair);
-    }
-    piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
-    pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
-  }
-  ask_again_.assign(pairs_.size(), 0.0);
-  lay_out_loads(model);
-
-  // History goes with its pair: both lists are sorted by bodies.
-  damping_power_.assign(pairs_.size(), 0.0);
-  capacities_.clear();
-  for (const BodyPair& pair : pairs_) capacities_.push_back(pair.plain() ? 1 : first_capacity);
-  auto former = former_pairs_.cbegin();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto bodies = [](const auto& pair) { return std::pair{pair.a, pair.b}; };
-    while (former != former_pairs_.cend() && bodies(*former) < bodies(pairs_[i])) ++former;
-    if (former == former_pairs_.cend()) break;
-    if (bodies(*former) != bodies(pairs_[i])) continue;
-    pairs_[i].slot_start = former->slot_start;
-    pairs_[i].contact_count = former->contact_count;
-    capacities_[i] = former->slot_capacity;
-    damping_power_[i] = former->damping_power;
-  }
-  lay_out_slots(capacities_);
-  if (!island_.empty()) hold_sleeping_pairs();
-}
-
-/// Of the pairs there are.
-void ContactStage::lay_out_loads(const Model& model) {
-  loads_.lay_out(model, pairs_, piece_pairs_);
-  if (keeps_stored_) stored_.resize(pairs_.size());
-  chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
-  describe_plain_pairs(model);
-}
-
-void ContactStage::describe_plain_pairs(const Model& model) {
-  const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data()};
-  const auto surface = [&](std::uint32_t body) { return model.surface[model.bodies[body].corner_begin]; };
-  for (BodyPair& pair : pairs_) {
-    pair.plain_corners[0] = pair.plain_corners[1] = 0;
-    if (plain_[pair.a] == 0 || plain_[pair.b] == 0) continue;
-    describe_plain(pair, piece_pairs_[pair.piece_pair_start], boundaries,
-                   interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
-  }
-}
-
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return {};
   touched_.clear();
@@ -217,15 +102,15 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
 /// Of the pairs whose time has come (see ask_again_), wave after wave of them.
 void ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
                             double until) {
-  const auto close_chunk = [&](std::size_t chunk, std::span<const std::uint32_t> active, Workspace& found) {
-    close(model, chunk, active, found);
+  const auto close_batch = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
+    close(model, batch, active, found);
   };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     const Wave now = wave(number);
-    ask(model, motion, conditions, now, until, true, close_chunk);
+    ask(model, motion, conditions, now, until, true, close_batch);
     while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
       make_room();
-      ask(model, motion, conditions, now, in_this_step, false, close_chunk);
+      ask(model, motion, conditions, now, in_this_step, false, close_batch);
     }
     if (!loads_.due()) continue;
     const bool finite = loads_.add(model, still_, motion);
@@ -242,10 +127,11 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   interfaces_.value = former_interface_values_.data();
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     ask(model, motion, conditions, wave(number), travelled_, true,
-        [&](std::size_t chunk, std::span<const std::uint32_t> active, const Workspace& found) {
-          for (const std::uint32_t in_chunk : active) {
-            chunk_totals_[chunk].stored += found.reports[in_chunk].stored;
-            chunk_totals_[chunk].slip_loss += found.reports[in_chunk].slip_loss;
+        [&](std::size_t batch, std::span<const std::uint32_t> active, const Workspace& found) {
+          for (const std::uint32_t i : active) {
+            ChunkTotals& chunk = chunk_totals_[(batch_begin_[batch] + i) / pair_chunk];
+            chunk.stored += found.reports[i].stored;
+            chunk.slip_loss += found.reports[i].slip_loss;
           }
         });
   }
@@ -255,7 +141,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   return found.stored + found.slip_loss;
 }
 
-/// Asks the law about pairs of a wave: anew, or once more about some. Calls each(chunk, pairs of it that were
+/// Asks the law about pairs of a wave: anew, or once more about some. Calls each(batch, pairs of it that were
 /// asked about, what the law said).
 template <class Each>
 void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
@@ -263,10 +149,12 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
   if (anew) loads_.begin(wave.number);
-  const auto ask_chunk = [&](std::size_t in_wave, std::size_t begin, std::size_t end, std::size_t thread) {
-    if (anew) loads_.prepare(in_wave);
+  const std::size_t first = batch_of(wave.begin), batches = batch_of(wave.end - 1) + 1 - first;
+  const auto ask_batch = [&](std::size_t in_wave, std::size_t, std::size_t, std::size_t thread) {
+    const std::size_t number = first + in_wave, slot = slot_base_[number];
+    if (anew) loads_.prepare(number);
     Workspace& found = workspaces_[thread];
-    begin += wave.begin, end += wave.begin;
+    const std::size_t begin = batch_begin_[number], end = batch_begin_[number + 1];
     const std::uint32_t count = choose_active(begin, end, until, found.active);
     if (count == 0) return;
     loads_.expect();
@@ -275,7 +163,6 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
     std::fill(found.history.begin(), found.history.end(), poison);
     for (std::uint32_t i = 0; i < count; ++i) fill_loads(model, pairs_[begin + found.active[i]], poison);
 #endif
-    const std::size_t chunk = wave.first_chunk() + in_wave, slot = slot_base_[chunk];
     const ContactBatch batch{boundaries,
                              interfaces_,
                              pairs_.data() + begin,
@@ -294,9 +181,9 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
         fill_loads(model, pairs_[begin + found.active[i]], 0);
     }
 #endif
-    each(chunk, std::span<const std::uint32_t>(found.active).first(count), found);
+    each(number, std::span<const std::uint32_t>(found.active).first(count), found);
   };
-  workers_.over(wave.end - wave.begin, pair_chunk, ask_chunk);
+  workers_.over(batches, 1, ask_batch);
 }
 
 /// Pairs that were apart need no look until both bodies together may have closed the gap.
@@ -310,17 +197,28 @@ std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end, do
   return count;
 }
 
-/// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
-/// that is short of room is left as it was, to be asked about again.
-void ContactStage::close(const Model& model, std::size_t chunk, std::span<const std::uint32_t> active,
+/// What the law found becomes what it is told of the previous step next time, while it is at hand.
+void ContactStage::close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
                          const Workspace& found) {
-  const std::size_t begin = chunk * pair_chunk;
+  while (!active.empty()) {
+    const std::uint32_t in_batch = active.front() / pair_chunk, end = (in_batch + 1) * pair_chunk;
+    const auto of_chunk = std::lower_bound(active.begin(), active.end(), end) - active.begin();
+    close_chunk(model, batch, active.first(of_chunk), found,
+                chunk_totals_[batch_begin_[batch] / pair_chunk + in_batch]);
+    active = active.subspan(of_chunk);
+  }
+}
+
+/// A pair that is short of room is left as it was, to be asked about again.
+void ContactStage::close_chunk(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
+                               const Workspace& found, ChunkTotals& chunk) {
+  const std::size_t begin = batch_begin_[batch];
   const double travelled = travelled_;
   const bool skin = skin_ > 0;
   double *const ask_again = ask_again_.data() + begin, *const damping_power = damping_power_.data() + begin;
   double* const stored = stored_.empty() ? nullptr : stored_.data() + begin;
-  double* const history = history_.data() + std::size_t{slot_base_[chunk]} * history_doubles_;
-  ChunkTotals totals = chunk_totals_[chunk];
+  double* const history = history_.data() + std::size_t{slot_base_[batch]} * history_doubles_;
+  ChunkTotals totals = chunk;
   totals.short_of_room = false;
   double sound = 0;
   for (const std::uint32_t i : active) {
@@ -358,17 +256,17 @@ void ContactStage::close(const Model& model, std::size_t chunk, std::span<const 
     copy_doubles(found.history.data() + slot, std::size_t{report.contact_count} * history_doubles_,
                  history + slot);
   }
-  if (!std::isfinite(sound)) totals.unsound = first_unsound(chunk, active, found);
-  chunk_totals_[chunk] = totals;
+  if (!std::isfinite(sound)) totals.unsound = first_unsound(begin, active, found);
+  chunk = totals;
 }
 
 /// The first pair with a report that is no number.
-std::uint32_t ContactStage::first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
+std::uint32_t ContactStage::first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
                                           const Workspace& found) {
-  for (const std::uint32_t in_chunk : active) {
-    const PairReport& r = found.reports[in_chunk];
+  for (const std::uint32_t i : active) {
+    const PairReport& r = found.reports[i];
     if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power))
-      return static_cast<std::uint32_t>(chunk * pair_chunk + in_chunk);
+      return static_cast<std::uint32_t>(begin + i);
   }
   return no_pair;
 }

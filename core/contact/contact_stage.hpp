@@ -90,6 +90,7 @@ class ContactStage {
 
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
+  void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
   bool fits(const Model& model) const;
@@ -98,14 +99,19 @@ class ContactStage {
   void move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
                   std::vector<Value>& values);
   void make_room();
-  std::uint32_t slot_of(std::size_t pair) const {
-    return slot_base_[pair / pair_chunk] + pairs_[pair].slot_start;
+  std::size_t batch_of(std::size_t pair) const {
+    return static_cast<std::size_t>(std::upper_bound(batch_begin_.begin(), batch_begin_.end(), pair) -
+                                    batch_begin_.begin()) -
+           1;
   }
-  /// What a law says of a chunk of pairs.
+  std::uint32_t slot_of(std::size_t pair) const {
+    return slot_base_[batch_of(pair)] + pairs_[pair].slot_start;
+  }
+  /// What a law says of a batch of pairs.
   struct Workspace {
-    std::vector<std::uint32_t> active = std::vector<std::uint32_t>(pair_chunk);
-    std::vector<PairReport> reports = std::vector<PairReport>(pair_chunk);
-    std::vector<double> history;  ///< of the slots of the chunk
+    std::vector<std::uint32_t> active;
+    std::vector<PairReport> reports;
+    std::vector<double> history;  ///< of the slots of the batch
   };
   struct ChunkTotals : ContactTotals {
     bool short_of_room = false;
@@ -127,9 +133,11 @@ class ContactStage {
            double until, bool anew, const Each& each);
   std::uint32_t choose_active(std::size_t begin, std::size_t end, double until,
                               std::vector<std::uint32_t>& active) const;
-  void close(const Model& model, std::size_t chunk, std::span<const std::uint32_t> active,
+  void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
              const Workspace& found);
-  static std::uint32_t first_unsound(std::size_t chunk, std::span<const std::uint32_t> active,
+  void close_chunk(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
+                   const Workspace& found, ChunkTotals& totals);
+  static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
   template <class Is>
@@ -173,6 +181,8 @@ class ContactStage {
   };
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
+  std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
+  std::uint64_t steps_shared_ = 0;             ///< since the last search
   WaveLoads loads_;
   LawFault fault_;
   std::vector<ChunkTotals> chunk_totals_;
@@ -182,7 +192,7 @@ class ContactStage {
   std::vector<double> damping_power_;      ///< [pair] J/m of the last step
   std::vector<double> stored_;             ///< [pair] J/m, if keeps_stored_
   std::vector<std::uint32_t> capacities_;  ///< [pair] its slots, or how many it needs
-  /// [chunk of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
+  /// [batch of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
   std::vector<std::uint32_t> slot_base_{0};
   std::vector<double> history_;
   std::vector<ContactReport> reports_;           ///< [slot] of the last step that was observed

@@ -46,7 +46,7 @@ WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers)
 }
 
 void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
-                        std::span<PiecePair> piece_pairs) {
+                        std::span<const std::uint32_t> batch_begin, std::span<PiecePair> piece_pairs) {
   latest_.assign(model.bodies.size(), nowhere);
   wave_bodies_.assign(1, 0);
   bodies_.clear();
@@ -54,13 +54,13 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
   make_room_in(pieces_, 2 * piece_pairs.size());
   sum_x_.clear();
   sum_y_.clear();
-  chunk_begin_.clear();
+  batch_load_.clear();
   std::uint32_t most = 0;
   for (std::size_t first = 0; first < pairs.size(); first += wave_size_) {
     const std::span<const BodyPair> wave = pairs.subspan(first, std::min(wave_size_, pairs.size() - first));
     std::uint32_t loads = 0;
     for (std::size_t i = 0; i < wave.size(); ++i) {
-      if (i % pair_chunk == 0) chunk_begin_.push_back(loads);
+      if (first + i == batch_begin[batch_load_.size()]) append_to(batch_load_, loads);
       for (std::uint32_t p = wave[i].piece_pair_start; p < wave[i].piece_pair_end; ++p) {
         piece_pairs[p].load_start = loads;
         loads += corners_of(model, piece_pairs[p].a) + corners_of(model, piece_pairs[p].b);
@@ -69,6 +69,7 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
     most = std::max(most, loads);
     list_bodies(model, wave, piece_pairs);
   }
+  append_to(batch_load_, 0U);
   for (std::vector<double>* values : {&x_, &y_}) {
     make_room_in(*values, most + guard_loads);
     values->assign(most, 0.0);
@@ -119,12 +120,10 @@ void WaveLoads::begin(std::size_t wave) {
   if (wave + 1 == waves()) renewed_ = false;
 }
 
-void WaveLoads::prepare(std::size_t chunk) {
+void WaveLoads::prepare(std::size_t batch) {
   if (!stale_) return;
-  const std::size_t in_wave = chunk + 1, number = wave_ * (wave_size_ / pair_chunk) + in_wave;
-  const bool last = in_wave == wave_size_ / pair_chunk || number == chunk_begin_.size();
-  const std::size_t begin = chunk_begin_[number - 1];
-  const std::size_t end = last ? x_.size() - guard_loads : chunk_begin_[number];
+  const std::size_t begin = batch_load_[batch], next = batch_load_[batch + 1];
+  const std::size_t end = next == 0 ? x_.size() - guard_loads : next;
   for (std::vector<double>* values : {&x_, &y_})
     std::fill(values->begin() + static_cast<std::ptrdiff_t>(begin),
               values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/pair_parts.hpp"
 #include "kernels/level.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
@@ -13,29 +14,23 @@
 
 namespace talus {
 
-inline constexpr std::size_t pair_chunk = 256;  ///< pairs that a law is given at once
-/// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them.
-/// Several threads wait for each other after each wave, so theirs are larger. No result shows which.
-constexpr std::size_t pairs_of_wave(int threads) {
-  return (threads == 1 ? 16 : 1024) * pair_chunk;
-}
-
 /// The loads of pairs, wave after wave of them: what a law has written of one is gathered by the bodies
 /// before the next takes its place.
 class WaveLoads {
  public:
   WaveLoads(const Model& model, SimdLevel level, Workers& workers);
 
-  /// Gives all pieces of the pairs their PiecePair::load_start.
-  void lay_out(const Model& model, std::span<const BodyPair> pairs, std::span<PiecePair> piece_pairs);
+  /// Gives all pieces of the pairs their PiecePair::load_start. `batch_begin` as divide_into_batches() says.
+  void lay_out(const Model& model, std::span<const BodyPair> pairs,
+               std::span<const std::uint32_t> batch_begin, std::span<PiecePair> piece_pairs);
 
   std::size_t waves() const { return wave_bodies_.size() - 1; }
 
   /// Until the next call the loads are those of this wave. Those of pairs that are not asked about are zero,
   /// if those of pairs that part were filled with zeros.
   void begin(std::size_t wave);
-  /// Before a law writes loads of a chunk of the wave, and where it writes none. Any thread, each chunk once.
-  void prepare(std::size_t chunk);
+  /// Before a law writes loads of a batch, and where it writes none. Any thread, each batch of the wave once.
+  void prepare(std::size_t batch);
   /// Sets all loads of a pair, N/m.
   void fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value);
   /// Makes all loads zero as the next waves begin.
@@ -70,7 +65,7 @@ class WaveLoads {
   std::vector<std::uint32_t> corner_begin_;    ///< [body]
   std::vector<std::uint32_t> corner_count_;    ///< [body] of one that is one convex piece; else 0
   std::vector<double> x_, y_;                  ///< and a guard behind them
-  std::vector<std::uint32_t> chunk_begin_;     ///< [chunk of pairs] its first load
+  std::vector<std::uint32_t> batch_load_;      ///< [batch of pairs + 1] its first load; 0: a wave begins
   std::vector<kernels::BodyLoads> bodies_;     ///< wave after wave
   std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
   std::vector<kernels::PieceLoads> pieces_;

@@ -1,0 +1,140 @@
+#include "contact/contact_stage.hpp"
+#include "contact/room.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace talus {
+namespace {
+
+/// Share of the mean width by which boxes are grown at least: bodies that only rounding makes overlap are
+/// candidates with the skin off, too.
+constexpr double rounding = 1e-9;
+constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
+}  // namespace
+
+bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {
+  if (!law_) return false;
+  // Both bodies of a pair may have moved; the boxes leave half of what is near to each.
+  slack_ -= travelled;
+  travelled_ += travelled;
+  const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
+  if (!due && !every_step) {
+    if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_)) share_anew(model);
+    return false;
+  }
+  const double rounded = rounding * model.mean_width;
+  if (due) {
+    search_.find(model, motion, std::max(near_, rounded), candidates_);
+    note_neighbours(model);
+    slack_ = near_ / 2;
+  }
+  if (every_step) search_.find(model, motion, rounded, candidates_);
+  rebuild_pairs(model);
+  travelled_ = 0;
+  ++searches_;
+  return due;
+}
+
+void ContactStage::note_neighbours(const Model& model) {
+  lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
+  for (const Candidate& candidate : candidates_) {
+    const std::uint32_t a = candidate.body_a, b = candidate.body_b;
+    if (fixed_[a] != 0 || fixed_[b] != 0) continue;
+    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], model.bodies[b].contact_mass);
+    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], model.bodies[a].contact_mass);
+  }
+}
+
+void ContactStage::rebuild_pairs(const Model& model) {
+  former_pairs_.clear();
+  make_room_in(former_pairs_, pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const BodyPair& pair = pairs_[i];
+    former_pairs_.push_back(
+        {pair.a, pair.b, slot_of(i), pair.slot_capacity, pair.contact_count, damping_power_[i]});
+  }
+  pairs_.clear();
+  piece_pairs_.clear();
+  steps_shared_ = 0;
+  const auto same_bodies = [](const Candidate& p, const Candidate& q) {
+    return p.body_a == q.body_a && p.body_b == q.body_b;
+  };
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < candidates_.size(); ++i)
+    repeated += same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
+  make_room_in(pairs_, candidates_.size() - repeated);
+  make_room_in(piece_pairs_, candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {
+      const Body &a = model.bodies[candidate.body_a], &b = model.bodies[candidate.body_b];
+      const double reduced_mass = fixed_[candidate.body_a] ? b.contact_mass
+                                  : fixed_[candidate.body_b]
+                                      ? a.contact_mass
+                                      : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
+      const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
+      BodyPair pair{};
+      pair.a = candidate.body_a, pair.b = candidate.body_b;
+      pair.piece_pair_start = first;
+      pair.master_share = master_share(pair.a, pair.b);
+      pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
+      pair.reduced_mass = reduced_mass;
+      pairs_.push_back(pair);
+    }
+    piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
+    pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
+  }
+  ask_again_.assign(pairs_.size(), 0.0);
+
+  // History goes with its pair: both lists are sorted by bodies.
+  damping_power_.assign(pairs_.size(), 0.0);
+  capacities_.assign(pairs_.size(), 0);
+  auto former = former_pairs_.cbegin();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const auto bodies = [](const auto& pair) { return std::pair{pair.a, pair.b}; };
+    while (former != former_pairs_.cend() && bodies(*former) < bodies(pairs_[i])) ++former;
+    if (former == former_pairs_.cend()) break;
+    if (bodies(*former) != bodies(pairs_[i])) continue;
+    pairs_[i].slot_start = former->slot_start;
+    pairs_[i].contact_count = former->contact_count;
+    capacities_[i] = former->slot_capacity;
+    damping_power_[i] = former->damping_power;
+  }
+  lay_out_loads(model);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (capacities_[i] == 0) capacities_[i] = pairs_[i].plain() ? 1 : first_capacity;
+  }
+  lay_out_slots(capacities_);
+  if (!island_.empty()) hold_sleeping_pairs();
+}
+
+/// By the contacts found since the search: in the first steps of a scene none is known.
+void ContactStage::share_anew(const Model& model) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].slot_start = slot_of(i);
+  lay_out_loads(model);
+  lay_out_slots(capacities_);
+}
+
+/// Of the pairs there are.
+void ContactStage::lay_out_loads(const Model& model) {
+  divide_into_batches(pairs_, workers_.threads(), batch_begin_);
+  loads_.lay_out(model, pairs_, batch_begin_, piece_pairs_);
+  if (keeps_stored_) stored_.resize(pairs_.size());
+  chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
+  describe_plain_pairs(model);
+}
+
+void ContactStage::describe_plain_pairs(const Model& model) {
+  const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data()};
+  const auto surface = [&](std::uint32_t body) { return model.surface[model.bodies[body].corner_begin]; };
+  for (BodyPair& pair : pairs_) {
+    pair.plain_corners[0] = pair.plain_corners[1] = 0;
+    if (plain_[pair.a] == 0 || plain_[pair.b] == 0) continue;
+    describe_plain(pair, piece_pairs_[pair.piece_pair_start], boundaries,
+                   interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <talus/contact_model.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// Pairs whose energies are added up before those of others. All larger parts are made of such chunks, so no
+/// sum shows how large they are.
+inline constexpr std::size_t pair_chunk = 64;
+
+/// Pairs that a law is given at once, about. Lanes waste least where a law finds many that meet alike, which
+/// takes many to choose from; their data should stay in the cache of a core.
+inline constexpr std::size_t large_batch = 32 * pair_chunk;
+
+/// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them.
+/// Several threads wait for each other after each wave, so theirs are larger. No result shows which.
+constexpr std::size_t pairs_of_wave(int threads) {
+  return (threads == 1 ? 2 : 128) * large_batch;
+}
+
+/// Divides the pairs of each wave into batches, to `batch_begin` [batch + 1]: as many for each thread, of as
+/// much work as the contacts of the last step tell. A law is given one of them at once.
+void divide_into_batches(std::span<const BodyPair> pairs, int threads,
+                         std::vector<std::uint32_t>& batch_begin);
+
+}  // namespace talus

@@ -1,0 +1,65 @@
+#include "contact/pair_parts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace talus;
+
+namespace {
+
+/// Pairs of a piece each, of which those from `first` on touched in the last step.
+std::vector<BodyPair> pairs_touching_from(std::size_t first, std::size_t count) {
+  std::vector<BodyPair> pairs(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    pairs[i].piece_pair_start = static_cast<std::uint32_t>(i);
+    pairs[i].piece_pair_end = pairs[i].piece_pair_start + 1;
+    pairs[i].contact_count = i < first ? 0 : 1;
+  }
+  return pairs;
+}
+
+std::vector<std::uint32_t> batches(const std::vector<BodyPair>& pairs, int threads) {
+  std::vector<std::uint32_t> begin{7, 7, 7};
+  divide_into_batches(pairs, threads, begin);
+  return begin;
+}
+
+}  // namespace
+
+TEST_CASE("batches cover all pairs in whole chunks, and none lies in two waves", "[contact][batches]") {
+  for (const int threads : {1, 2, 3, 7}) {
+    for (const std::size_t count : {std::size_t{1}, pair_chunk, pair_chunk + 1, std::size_t{2025},
+                                    pairs_of_wave(1) + 1, 3 * pairs_of_wave(1), pairs_of_wave(2) + 100}) {
+      CAPTURE(threads, count);
+      const std::vector<std::uint32_t> begin = batches(pairs_touching_from(count / 3, count), threads);
+      REQUIRE(begin.front() == 0);
+      REQUIRE(begin.back() == count);
+      for (std::size_t i = 1; i < begin.size(); ++i) {
+        REQUIRE(begin[i] > begin[i - 1]);
+        if (i + 1 < begin.size()) REQUIRE(begin[i] % pair_chunk == 0);
+      }
+      for (std::size_t wave = pairs_of_wave(threads); wave < count; wave += pairs_of_wave(threads))
+        REQUIRE(std::binary_search(begin.begin(), begin.end(), wave));
+    }
+  }
+}
+
+TEST_CASE("no pairs make no batch", "[contact][batches]") {
+  CHECK(batches({}, 1) == std::vector<std::uint32_t>{0});
+  CHECK(batches({}, 2) == std::vector<std::uint32_t>{0});
+}
+
+TEST_CASE("one thread has as few batches as their size allows, others share the work", "[contact][batches]") {
+  CHECK(batches(pairs_touching_from(0, 2025), 1).size() == 2);
+  CHECK(batches(pairs_touching_from(0, large_batch + 1), 1).size() == 3);
+
+  const std::vector<std::uint32_t> even = batches(pairs_touching_from(0, 4096), 2);
+  CHECK(even == std::vector<std::uint32_t>{0, 1024, 2048, 3072, 4096});
+  // Pairs that are apart cost little: whoever has them takes more.
+  const std::vector<std::uint32_t> half_apart = batches(pairs_touching_from(2048, 4096), 2);
+  REQUIRE(half_apart.size() == 5);
+  CHECK(half_apart[1] > 2048);
+  CHECK(half_apart[4] - half_apart[3] < 640);
+  CHECK(half_apart[4] - half_apart[3] > 400);
+}
