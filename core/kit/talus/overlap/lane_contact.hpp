@@ -32,6 +32,7 @@ class LaneContact {
       if (at.contact_count == 1) {
         const double* old = batch.history + std::size_t{at.slot_start} * friction_doubles;
         if (old[7] > 0) {
+          fetch_ahead(batch.boundaries.corner + at.corner_start[1]);
           add_touching(at, TouchingPair::remembered(pair, old[7]));
           return;
         }
@@ -72,6 +73,12 @@ class LaneContact {
         evaluate_group(law, batch, loads, &touching[i],
                        static_cast<int>(std::min<std::size_t>(lanes, count - i)), averaged, general);
     }
+  }
+
+  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly came
+  /// with an earlier pair, for pairs are sorted by it.
+  static void fetch_ahead(const BoundaryCorner* corner) {
+    for (int i = 0; i < 4; ++i) __builtin_prefetch(corner + i);
   }
 
   void add_touching(const BodyPair& pair, TouchingPair touching) {
