@@ -14,13 +14,13 @@ namespace talus {
 inline constexpr std::size_t pair_chunk = 64;
 
 /// Pairs that a law is given at once, about. Lanes waste least where a law finds many that meet alike, which
-/// takes many to choose from; their data should stay in the cache of a core.
-inline constexpr std::size_t large_batch = 32 * pair_chunk;
+/// takes many to choose from; where all meet alike, more than the cache of a core holds only cost.
+inline constexpr std::size_t large_batch = 16 * pair_chunk;
 
 /// Pairs whose loads are held at once: so few that they are still in the cache when bodies gather them.
 /// Several threads wait for each other after each wave, so theirs are larger. No result shows which.
 constexpr std::size_t pairs_of_wave(int threads) {
-  return (threads == 1 ? 2 : 128) * large_batch;
+  return (threads == 1 ? 4 : 256) * large_batch;
 }
 
 /// Divides the pairs of each wave into batches, to `batch_begin` [batch + 1]: as many for each thread, of as

@@ -51,7 +51,7 @@ TEST_CASE("no pairs make no batch", "[contact][batches]") {
 }
 
 TEST_CASE("one thread has as few batches as their size allows, others share the work", "[contact][batches]") {
-  CHECK(batches(pairs_touching_from(0, 2025), 1).size() == 2);
+  CHECK(batches(pairs_touching_from(0, large_batch), 1).size() == 2);
   CHECK(batches(pairs_touching_from(0, large_batch + 1), 1).size() == 3);
 
   const std::vector<std::uint32_t> even = batches(pairs_touching_from(0, 4096), 2);

@@ -75,8 +75,8 @@ class LaneContact {
     }
   }
 
-  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly came
-  /// with an earlier pair, for pairs are sorted by it.
+  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly
+  /// came with an earlier pair, for pairs are sorted by it.
   static void fetch_ahead(const BoundaryCorner* corner) {
     for (int i = 0; i < 4; ++i) __builtin_prefetch(corner + i);
   }
