@@ -12,6 +12,7 @@ namespace {
 /// candidates with the skin off, too.
 constexpr double rounding = 1e-9;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
+
 }  // namespace
 
 bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {

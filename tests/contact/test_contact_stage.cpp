@@ -21,17 +21,25 @@ struct HeldStage {
   MotionState motion;
   ContactStage contacts;
 
-  HeldStage(const WorkingScene& text, Registry& registry, bool skin = true)
+  HeldStage(const WorkingScene& text, Registry& registry, bool skin = true, Workers& workers = alone())
       : scene(text.read(registry)),
         model(build_model(scene)),
         motion(model),
-        contacts(scene, model, alone(), skin) {}
+        contacts(scene, model, workers, skin) {}
 
   ContactTotals evaluate(double dt = 1e-3) {
     for (BodyForce& force : motion.forces) force = {};
     motion.move_boundary(model);
     contacts.find_pairs(model, motion, 1e9);  // the candidates are sought anew every time
     return contacts.evaluate(model, motion, {dt, true, false});
+  }
+
+  /// A step among the candidates of the last search.
+  ContactTotals evaluate_near() {
+    for (BodyForce& force : motion.forces) force = {};
+    motion.move_boundary(model);
+    contacts.find_pairs(model, motion, 0);
+    return contacts.evaluate(model, motion, {1e-3, true, false});
   }
 
   std::size_t number(std::uint32_t a, std::uint32_t b) const {
@@ -264,6 +272,37 @@ TEST_CASE("loads of a wave reach bodies whose later waves have nothing to ask ab
   stage.contacts.evaluate(stage.model, stage.motion, {1e-3, true, false});
   for (std::size_t body = 0; body < asked.size(); ++body)
     REQUIRE(std::memcmp(&asked[body], &stage.motion.forces[body], sizeof asked[body]) == 0);
+}
+
+TEST_CASE("threads that share pairs anew between searches find the same, and histories go along",
+          "[contact][stage]") {
+  Workers three(3);
+  HeldStage stage(raft(), shipped_registry()), shared(raft(), shipped_registry(), true, three);
+  for (HeldStage* each : {&stage, &shared}) {
+    push_together(each->motion);
+    each->motion.bodies[1].velocity = {1e-3, 0};  // shears its teeth, so that history tells them apart
+    for (int i = 0; i < rows * rows; ++i)
+      each->motion.bodies[2 + apart + static_cast<std::size_t>(i)].velocity = {1e-4 * (i / rows), 0};
+    each->evaluate();
+  }
+  const auto pairs = stage.contacts.pairs();
+  REQUIRE(shared.contacts.pairs().size() == pairs.size());
+  for (int step = 0; step < 5; ++step) {
+    const ContactTotals alone_found = stage.evaluate_near(), found = shared.evaluate_near();
+    REQUIRE(stage.contacts.searches() == 1);
+    REQUIRE(shared.contacts.searches() == 1);
+    CHECK(found.stored == alone_found.stored);
+    CHECK(found.slip_loss == alone_found.slip_loss);
+    for (std::size_t body = 0; body < stage.model.bodies.size(); ++body)
+      REQUIRE(std::memcmp(&stage.motion.forces[body], &shared.motion.forces[body], sizeof(BodyForce)) == 0);
+    bool remembers = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto history = stage.contacts.history_of(i), other = shared.contacts.history_of(i);
+      REQUIRE(std::equal(history.begin(), history.end(), other.begin(), other.end()));
+      remembers = remembers || (!history.empty() && history[0] != 0);
+    }
+    CHECK(remembers);
+  }
 }
 
 TEST_CASE("a fixed body is master, and between moving bodies both are or the priority decides",
