@@ -201,7 +201,7 @@ std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end, do
 void ContactStage::close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
                          const Workspace& found) {
   while (!active.empty()) {
-    const std::uint32_t in_batch = active.front() / pair_chunk, end = (in_batch + 1) * pair_chunk;
+    const std::size_t in_batch = active.front() / pair_chunk, end = (in_batch + 1) * pair_chunk;
     const auto of_chunk = std::lower_bound(active.begin(), active.end(), end) - active.begin();
     close_chunk(model, batch, active.first(of_chunk), found,
                 chunk_totals_[batch_begin_[batch] / pair_chunk + in_batch]);
