@@ -17,8 +17,9 @@ std::uint64_t work_of(const BodyPair& pair) {
 
 void divide_into_batches(std::span<const BodyPair> pairs, int threads,
                          std::vector<std::uint32_t>& batch_begin) {
-  // Of several threads the one that is done first takes over a batch of another.
-  const std::size_t shares = threads == 1 ? 1 : 2 * static_cast<std::size_t>(threads),
+  // Of several threads the one that is done first takes over a batch of another. Few pairs wake nobody.
+  const bool few = pairs.size() <= 4 * pair_chunk;
+  const std::size_t shares = threads == 1 || few ? 1 : 2 * static_cast<std::size_t>(threads),
                     large = shares * large_batch;
   batch_begin.assign(1, 0);
   for (std::size_t first = 0; first < pairs.size(); first += pairs_of_wave(threads)) {

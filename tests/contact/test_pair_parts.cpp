@@ -54,6 +54,9 @@ TEST_CASE("one thread has as few batches as their size allows, others share the 
   CHECK(batches(pairs_touching_from(0, large_batch), 1).size() == 2);
   CHECK(batches(pairs_touching_from(0, large_batch + 1), 1).size() == 3);
 
+  CHECK(batches(pairs_touching_from(0, 4 * pair_chunk), 2).size() == 2);  // too few to wake others for
+  CHECK(batches(pairs_touching_from(0, 4 * pair_chunk + 1), 2).size() > 2);
+
   const std::vector<std::uint32_t> even = batches(pairs_touching_from(0, 4096), 2);
   CHECK(even == std::vector<std::uint32_t>{0, 1024, 2048, 3072, 4096});
   // Pairs that are apart cost little: whoever has them takes more.
