@@ -154,7 +154,7 @@ inline constexpr Parameter time[] = {
            "Time step; \"auto\" takes it from votes of bodies and contacts. Output times are met exactly."),
     number("safety", "-", 0.2, above_zero, 0.9,
            "The automatic step is min(safety · critical step of undamped contacts and supports alone, "
-           "max(0.6, safety) · that of the whole scene), and safety · the latter without any; at most 0.4 "
+           "max(0.8, safety) · that of the whole scene), and safety · the latter without any; at most 0.4 "
            "where bodies can meet."),
 };
 

@@ -8,15 +8,15 @@
 
 namespace talus {
 
-/// Surface classes that a body can meet, and by what factor its springs count for the motion of what it
-/// meets.
+/// Surface classes that a body can meet, and by what factors its springs and dashpots count where what it
+/// meets moves, too.
 struct Meetings {
   std::vector<char> surfaces;
   double stiffness_factor = 1, damping_factor = 1;
 };
 
 /// Springs and dashpots a side of a body may meet, half of them for each of its ends: per metre of thickness,
-/// N/m and N s/m.
+/// N/m and N s/m. Springs are those of something fixed, dashpots of what the body may meet.
 struct SideSprings {
   double normal = 0, tangential = 0;  ///< of contacts
   double normal_damping = 0, tangential_damping = 0;
@@ -36,25 +36,26 @@ inline constexpr Reach spread_evenly{1, 1.0 / 12};
 inline constexpr Reach spread_dashpot{1, 1.0 / 6};
 /// Along the side one spring acts where the pressure has its resultant: e = 1/2 − L/3 off the middle at most,
 /// for pressure that is linear over the part L. L (m + e d)² is at most this for all L, and √L (m + e d)².
-inline constexpr Reach at_resultant{1.2, 1.0 / 6}, dashpot_at_resultant{1.2, 0.198};
+/// Of the pairs that will do, a and a/(36 (a − 1)) for springs, this gives bricks and triangles long steps.
+inline constexpr Reach at_resultant{1.3, 13.0 / 108}, dashpot_at_resultant{1.2, 0.198};
 
 /// Largest squared angular frequency of a body with all its springs, 1/s², and largest damping rate, 1/s.
 struct BodyVote {
   double lambda = 0, gamma = 0;
   double elastic_lambda = 0;  ///< of its strain modes alone
-  double spring_lambda = 0;   ///< of its springs alone
+  double spring_lambda = 0;   ///< of its springs alone, among fixed things
 };
 
 /// [side of boundary_of() the body]
 using SpringsOfSides = std::vector<SideSprings>;
 
-/// A body that moves as a whole: 6 or 3 unknowns, solved outright.
+/// A body that moves as a whole: 6 or 3 unknowns, solved outright. Its contacts count `factor` times.
 BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t body,
-                         const SpringsOfSides& springs);
+                         const SpringsOfSides& springs, double factor);
 
 /// A body of many elements, by Lanczos iteration with the residual added: never below the true value but for
 /// rounding. `treated`: with what was done about slivers.
 BodyVote vote_of_patches(const Scene& scene, const Model& model, std::uint32_t body,
-                         const SpringsOfSides& springs, bool treated = true);
+                         const SpringsOfSides& springs, double factor, bool treated = true);
 
 }  // namespace talus

@@ -138,7 +138,7 @@ double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32
 }  // namespace
 
 BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::uint32_t index,
-                         const SpringsOfSides& springs, bool treated) {
+                         const SpringsOfSides& springs, double factor, bool treated) {
   Model untreated;
   if (!treated) {
     untreated = treated_model;
@@ -157,17 +157,19 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
   const Operator elastic = [&](const Field& from, Field& to) {
     add_elastic(model, body, tangent, 1, from, to);
   };
-  const Operator sprung = [&](const Field& from, Field& to) {
+  const auto add_sprung = [&](double times, const Field& from, Field& to) {
     add_springs(
         model, body, springs,
-        [](const SideSprings& s) {
-          return Strengths{s.normal, s.spread ? spread_evenly : at_ends, s.tangential, s.support};
+        [times](const SideSprings& s) {
+          return Strengths{times * s.normal, s.spread ? spread_evenly : at_ends, times * s.tangential,
+                           s.support};
         },
         from, to);
   };
+  const Operator among_fixed = [&](const Field& from, Field& to) { add_sprung(1, from, to); };
   const Operator stiffness = [&](const Field& from, Field& to) {
     elastic(from, to);
-    sprung(from, to);
+    add_sprung(factor, from, to);
   };
   const Operator damping = [&](const Field& from, Field& to) {
     if (tangent.viscous_time > 0) add_elastic(model, body, tangent, tangent.viscous_time, from, to);
@@ -187,7 +189,7 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
   BodyVote vote;
   vote.elastic_lambda = largest_eigenvalue(model, mass, index, elastic);
   vote.lambda = has_springs ? largest_eigenvalue(model, mass, index, stiffness) : vote.elastic_lambda;
-  if (has_springs) vote.spring_lambda = largest_eigenvalue(model, mass, index, sprung);
+  if (has_springs) vote.spring_lambda = largest_eigenvalue(model, mass, index, among_fixed);
   if (damped) vote.gamma = largest_eigenvalue(model, mass, index, damping);
   return vote;
 }

@@ -36,8 +36,8 @@ SideSprings stiffest_meeting(const Body& body, std::uint32_t surface, double len
                ? met.damping_factor * 2 * ratio * std::sqrt(pieces * body.contact_mass * stiffness / 2)
                : 0.0;
   };
-  return {.normal = met.stiffness_factor * most.normal,
-          .tangential = met.stiffness_factor * most.tangential,
+  return {.normal = most.normal,
+          .tangential = most.tangential,
           .normal_damping = damping(most.normal, most.normal_damping_ratio),
           .tangential_damping = damping(most.tangential, most.tangential_damping_ratio),
           .spread = spread};
@@ -112,7 +112,7 @@ double impedance(const Scene& scene, std::uint32_t body) {
 }
 
 SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, const Model& model,
-                          const ContactStage& contacts, const Crowd& crowd, std::uint32_t index) {
+                          const ContactStage& contacts, const Meetings& met, std::uint32_t index) {
   const Body& body = model.bodies[index];
   const std::vector<BoundarySide> sides = boundary_of(scene, model, index);
   SpringsOfSides springs(sides.size());
@@ -122,7 +122,6 @@ SpringsOfSides springs_of(const Scene& scene, const StageSettings& settings, con
     }
   };
   if (contacts.law() != nullptr) {
-    const Meetings met = crowd.met_by(index);
     const bool spread = (scene.contact.component->component->traits & trait::spread_springs) != 0;
     for (std::size_t i = 0; i < sides.size(); ++i)
       springs[i] = stiffest_meeting(body, sides[i].surface, length_of(sides[i]), contacts, met, spread);
@@ -182,16 +181,17 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
       continue;
     }
     if (different.size() < 64) different.push_back(ballots_.size());
-    const SpringsOfSides springs = springs_of(scene, settings, model, contacts, crowd, i);
-    const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs)
-                                           : vote_as_a_whole(scene, model, i, springs);
+    const Meetings met = crowd.met_by(i);
+    const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, i);
+    const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
+    const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs, factor)
+                                           : vote_as_a_whole(scene, model, i, springs, factor);
     const bool supported =
         std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
     const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
-    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda,
-                        contacts_alone ? 0.0 : vote.spring_lambda, vote.spring_lambda, vote.gamma,
-                        contacts.law() != nullptr ? crowd.met_by(i).stiffness_factor : 1,
-                        model.bodies[i].contact_mass, i, vote.elastic_lambda > 0.5 * vote.lambda});
+    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.spring_lambda,
+                        vote.gamma, factor, model.bodies[i].contact_mass, i,
+                        vote.elastic_lambda > 0.5 * vote.lambda});
   }
 }
 
@@ -200,14 +200,13 @@ CriticalStep StepVote::count(const Share& share) const {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep smallest{none, none, 0, 0, false};
   for (const Ballot& ballot : ballots_) {
-    const double part = share(ballot);
-    const auto between = [&](double alone, double with) { return alone + part * (with - alone); };
-    const double bounce = stable_step(between(ballot.springs_alone, ballot.springs), 0);
+    const double bounce = stable_step(ballot.spring_lambda, 0);
     if (bounce < smallest.spring_dt) {
       smallest.spring_dt = bounce;
       smallest.spring_body = ballot.body;
     }
-    const double dt = stable_step(between(ballot.lambda_alone, ballot.lambda), ballot.gamma);
+    const double lambda = ballot.lambda_alone + share(ballot) * (ballot.lambda - ballot.lambda_alone);
+    const double dt = stable_step(lambda, ballot.gamma);
     if (dt < smallest.dt) {
       smallest.dt = dt;
       smallest.body = ballot.body;
@@ -234,7 +233,7 @@ std::string limiter_of(const Scene& scene, const CriticalStep& step) {
 }
 
 double automatic_step(const CriticalStep& critical, double safety) {
-  constexpr double most_of_stable = 0.6;
+  constexpr double most_of_stable = 0.8;
   if (std::isinf(critical.spring_dt)) return safety * critical.dt;
   return std::min(safety * critical.spring_dt, std::max(safety, most_of_stable) * critical.dt);
 }
@@ -254,8 +253,8 @@ std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model)
     std::size_t tied = 0;
     for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s)
       tied += std::isinf(model.steady[s].inertia) ? 1 : 0;
-    const BodyVote with = vote_of_patches(scene, model, i, {}),
-                   without = vote_of_patches(scene, model, i, {}, false);
+    const BodyVote with = vote_of_patches(scene, model, i, {}, 1),
+                   without = vote_of_patches(scene, model, i, {}, 1, false);
     effects.push_back({i, tied, body.steady_end - body.steady_begin - tied,
                        stable_step(with.lambda, with.gamma), stable_step(without.lambda, without.gamma)});
   }

@@ -13,7 +13,7 @@ namespace talus {
 
 struct CriticalStep {
   double dt;         ///< s; infinite if nothing vibrates
-  double spring_dt;  ///< s, with contacts and supports alone, undamped: what a bounce is judged by
+  double spring_dt;  ///< s, with contacts and supports alone, undamped, among fixed things: see StepVote
   std::uint32_t body, spring_body;  ///< who limits them
   bool strained;                    ///< dt mostly by strain modes, not by contacts
 };
@@ -29,9 +29,10 @@ std::string limiter_of(const Scene& scene, const CriticalStep& step);
 /// √(m_b/m_a)) q_b², so the votes of single bodies bound the coupled system; with a fixed body the factor
 /// is 1. Who meets whom changes, and with it that factor alone.
 ///
-/// A bounce is as accurate as its springs are resolved. Strain modes, and dashpots, which lag by half a step,
-/// make the stable step shorter, but a bounce no less accurate; so the automatic step is a share of the bound
-/// with springs alone and kept well below the stable one.
+/// A bounce is as accurate as its springs are resolved. Strain modes, dashpots, which lag by half a step, and
+/// neighbours that move against each other make the stable step shorter, but a bounce no less accurate; so
+/// the automatic step is a share of the bound with springs alone, as if nothing else moved, and kept below
+/// the stable one. Two rigid equals that bounce off each other swing as fast as either held on both sides.
 class StepVote {
  public:
   StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
@@ -47,9 +48,9 @@ class StepVote {
   /// The largest eigenvalue is convex in the factor of the contact springs: between none and the largest it
   /// stays below the chord.
   struct Ballot {
-    double lambda_alone, lambda;    ///< 1/s², without contacts, and with the springs times `factor`
-    double springs_alone, springs;  ///< 1/s², the same without strain modes
-    double gamma;                   ///< 1/s
+    double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
+    double spring_lambda;         ///< 1/s², of springs alone
+    double gamma;                 ///< 1/s
     double factor, mass;
     std::uint32_t body;
     bool strained;
@@ -60,7 +61,7 @@ class StepVote {
   std::vector<Ballot> ballots_;
 };
 
-/// The automatic step, s: min(safety · spring_dt, max(0.6, safety) · dt); safety · dt without springs.
+/// The automatic step, s: min(safety · spring_dt, max(0.8, safety) · dt); safety · dt without springs.
 double automatic_step(const CriticalStep& critical, double safety);
 
 /// In words, who limits the automatic step.

@@ -69,14 +69,14 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& 
 }  // namespace
 
 BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t index,
-                         const SpringsOfSides& springs) {
+                         const SpringsOfSides& springs, double factor) {
   const Body& body = model.bodies[index];
   const SceneMaterial& material = scene.materials[scene.bodies[index].material];
   const Eigen::MatrixXd mass = mass_matrix(body, material.density);
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   Elastic elastic{zero, zero};
   if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);
-  Eigen::MatrixXd stiffness = elastic.stiffness, damping = elastic.damping;
+  Eigen::MatrixXd contacts = zero, supports = zero, damping = elastic.damping;
   const std::vector<BoundarySide> sides = boundary_of(scene, model, index);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const BoundarySide& side = sides[i];
@@ -92,18 +92,18 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
     const SideSprings& on = springs[i];
     // A rigid side has one velocity along it, wherever somebody holds it.
     const bool at_one_place = on.spread && body.kinematics != Kinematics::rigid;
-    add(stiffness, across, on.normal, on.spread ? spread_evenly : at_ends);
-    add(stiffness, along, on.tangential, at_one_place ? at_resultant : at_ends);
+    add(contacts, across, on.normal, on.spread ? spread_evenly : at_ends);
+    add(contacts, along, on.tangential, at_one_place ? at_resultant : at_ends);
     add(damping, across, on.normal_damping, on.spread ? spread_dashpot : at_ends);
     add(damping, along, on.tangential_damping, at_one_place ? dashpot_at_resultant : at_ends);
     for (const Shape& shape : {at_start, at_end}) {
-      stiffness += on.support * shape.transpose() * shape;
+      supports += on.support * shape.transpose() * shape;
       damping += on.support_damping * shape.transpose() * shape;
     }
   }
-  return {largest_eigenvalue(stiffness, mass), largest_eigenvalue(damping, mass),
-          largest_eigenvalue(elastic.stiffness, mass),
-          largest_eigenvalue(stiffness - elastic.stiffness, mass)};
+  return {largest_eigenvalue(elastic.stiffness + supports + factor * contacts, mass),
+          largest_eigenvalue(damping, mass), largest_eigenvalue(elastic.stiffness, mass),
+          largest_eigenvalue(supports + contacts, mass)};
 }
 
 }  // namespace talus

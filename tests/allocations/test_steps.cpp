@@ -89,7 +89,7 @@ TEST_CASE("Steps ask for no memory, nor does a search for neighbours", "[allocat
   const char* law = GENERATE("overlap_area", "vertex_edge", "frictionless");
   const RunSettings settings = GENERATE(RunSettings{1, true}, RunSettings{1, false}, RunSettings{2, true});
   CAPTURE(stack.name, law, settings.threads, settings.neighbour_skin);
-  const Observed seen = observe(scene_of(stack, law), settings, 0.005, 0.0075);
+  const Observed seen = observe(scene_of(stack, law), settings, 0.005, 0.009);
   CHECK(seen.steps > 40);
   CHECK(seen.searches == (settings.neighbour_skin ? 0 : seen.steps));
   CHECK(seen.allocations == 0);

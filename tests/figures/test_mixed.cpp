@@ -32,7 +32,7 @@ Scene pile(const Scratch& folder, const std::vector<Override>& overrides = {}) {
       {{"name": "mesh", "mesh": "{}", "material": "rock", "velocity": [0.2, 0], "cover": {{"model": "mesh"}}}}
     ],
     "stages": [{{"name": "rest", "from": 0.1, "set": {{"/damping": 200}}}}],
-    "time": {{"end": 0.4}}, "output": {{"history": 0.01}}
+    "time": {{"end": 0.4, "safety": 0.1}}, "output": {{"history": 0.01}}
   }})",
                                folder.write("top.msh", top.text()).string()),
                    overrides);
