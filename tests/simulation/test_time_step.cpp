@@ -315,6 +315,34 @@ TEST_CASE("two equals bounce off each other with 0.987 to 1.013 of their speed a
   }
 }
 
+TEST_CASE("slabs on columns come to rest at the automatic step, whatever dashpots meet on a side",
+          "[simulation][time_step]") {
+  for (const char* cover : {"rigid", "block"}) {
+    for (const int columns : {2, 8}) {
+      INFO(cover << ", " << columns << " columns under and over a slab of the mass of each");
+      WorkingScene stack;
+      stack.cover = cover;
+      stack.gravity = "[0, -10]";
+      stack.interface = R"("normal_stiffness": 1e10, "tangential_stiffness": 1e10, "friction_angle": 30,
+                           "normal_damping": 1, "tangential_damping": 1)";
+      stack.bodies = box("base", -1, -1, 5, 0, R"("fixed": true)");
+      const double width = 4.0 / columns, height = 0.5 * columns;
+      for (const int storey : {0, 1}) {
+        const double bottom = storey * (height + 0.5);
+        for (int i = 0; i < columns; ++i)
+          stack.bodies += ", " + box(fmt::format("column {} {}", storey, i), i * width, bottom,
+                                     (i + 1) * width, bottom + height);
+        if (storey == 0) stack.bodies += ", " + box("slab", 0, height, 4, height + 0.5);
+      }
+      stack.time = R"({"end": 0.4})";
+      stack.output = R"({"history": 0.4})";
+      const Simulation simulation = run_to_end(stack);
+      CHECK(simulation.ledger().kinetic < 1e-3 * simulation.ledger().throughput);
+      CHECK(simulation.summary().largest_residual_share < 1e-3);
+    }
+  }
+}
+
 TEST_CASE("who is near does not weaken supports", "[simulation][time_step]") {
   WorkingScene text;
   text.interface = stiff(1e3, 1e3);
