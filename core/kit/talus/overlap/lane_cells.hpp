@@ -64,12 +64,14 @@ class LaneCells {
     cell_count_ = 0;
     next_segment_ = segment_;
     constexpr int sides = corners_of(master_sides, corners), others = corners_of(slave_sides, corners);
-    measure<sides, others>(master, slave, clear_depth);
+    measure_heights<sides, others>(master, slave);
 #pragma GCC unroll 1  // a cut is long enough
     for (int k = 0; k < sides; ++k) {
-      if (!clear_[k]) continue;
-      CornerBits meetings = possible_meetings<others>(k);
+      const int after = k + 1 == sides ? 0 : k + 1;
+      CornerBits meetings = some_right_[k] & ~all_right_[after];
       if constexpr (master_sides == mixed) meetings &= each_corner(master.real[k]) & in_turn(slave.real);
+      if (meetings == 0 || !measure_depths<others>(master.corner[k], slave, clear_depth)) continue;
+      meetings &= some_behind_;
       if (meetings == 0) continue;
       Integrals sum{0.0, 0.0, 0.0};
       LaneCell& cell = cell_[cell_count_];
@@ -82,7 +84,8 @@ class LaneCells {
         const CornerBits here = meetings >> shift & all_lanes;
         meetings ^= here << shift;
         const Mask possible = simd::mask_of(static_cast<unsigned>(here));
-        cut_out(cell, slave, k, j, possible, clear_depth, inverse_length, stiffness, sum);
+        const Heights heights{height_[k], height_[after], j + 1 == others ? 0 : j + 1};
+        cut_out(cell, slave, k, j, heights, possible, clear_depth, inverse_length, stiffness, sum);
       }
       cell.end = next_segment_;
       if (cell.end != cell.begin) close_cell(cell, inverse_length, clear_depth, stiffness, sum);
@@ -118,46 +121,53 @@ class LaneCells {
     Pack area, along, depth;  ///< −∫ 1, s, d dA
   };
 
-  /// Depths of the slave's corners behind the master's sides, and their heights over the line of division at
-  /// each master corner, positive on the side of the side that starts there.
+  /// Of the slave's corners over the lines of division at both ends of a master side.
+  struct Heights {
+    const Pack *left, *right;
+    int last;  ///< the corner at the end of the slave side at hand
+  };
+
+  /// Heights of the slave's corners over the line of division at each master corner, positive on the side of
+  /// the side that starts there.
   template <int sides, int others>
-  void measure(const LanePiece<corners>& master, const LanePiece<corners>& slave, Pack clear_depth) {
+  void measure_heights(const LanePiece<corners>& master, const LanePiece<corners>& slave) {
     for (int k = 0; k < sides; ++k) {
       const LaneCorner& at = master.corner[k];
       const Packs2 along = (k == 0 ? master.last_tangent : master.corner[k - 1].tangent) + at.tangent;
-      behind_[k] = right_[k] = 0;
-      Pack least = clear_depth;
+      CornerBits right = 0;
       for (int j = 0; j < others; ++j) {
-        const Packs2 from = slave.corner[j].at - at.at;
-        depth_[k][j] = simd::cross(at.tangent, from);
-        height_[k][j] = simd::dot(along, from);
-        least = simd::min(least, depth_[k][j]);
-        behind_[k] |= CornerBits{simd::bits(depth_[k][j] > 0.0)} << j * lanes;
-        right_[k] |= CornerBits{simd::bits(height_[k][j] >= 0.0)} << j * lanes;
+        height_[k][j] = simd::dot(along, slave.corner[j].at - at.at);
+        right |= CornerBits{simd::bits(height_[k][j] >= 0.0)} << j * lanes;
       }
-      clear_[k] = simd::any(least < clear_depth);
-      depth_[k][others] = depth_[k][0];
-      height_[k][others] = height_[k][0];
+      const CornerBits right_of_next = of_next<others>(right);
+      some_right_[k] = right | right_of_next;
+      all_right_[k] = right & right_of_next;
     }
-    for (int j = 0; j <= others; ++j) height_[sides][j] = height_[0][j];
-    right_[sides] = right_[0];
   }
 
-  /// Slave sides that may reach into the cell of a master side: not all before it, not all on one side.
+  /// Depths of the slave's corners behind a side of the master. False if all are deeper than clear_depth.
   template <int others>
-  CornerBits possible_meetings(int k) const {
-    return (behind_[k] | of_next<others>(behind_[k])) & (right_[k] | of_next<others>(right_[k])) &
-           ~(right_[k + 1] & of_next<others>(right_[k + 1]));
+  bool measure_depths(const LaneCorner& side, const LanePiece<corners>& slave, Pack clear_depth) {
+    Pack least = clear_depth;
+    CornerBits behind = 0;
+    for (int j = 0; j < others; ++j) {
+      depth_[j] = side.depth(slave.corner[j].at);
+      least = simd::min(least, depth_[j]);
+      behind |= CornerBits{simd::bits(depth_[j] > 0.0)} << j * lanes;
+    }
+    some_behind_ = behind | of_next<others>(behind);
+    return simd::any(least < clear_depth);
   }
 
   /// The part of a slave side in a cell, by its parameters (Liang–Barsky).
-  [[gnu::always_inline]] void cut_out(LaneCell& cell, LanePiece<corners>& slave, int k, int j, Mask possible,
-                                      Pack clear_depth, Pack inverse_length, Pack stiffness, Integrals& sum) {
+  [[gnu::always_inline]] void cut_out(LaneCell& cell, LanePiece<corners>& slave, int k, int j,
+                                      const Heights& heights, Mask possible, Pack clear_depth,
+                                      Pack inverse_length, Pack stiffness, Integrals& sum) {
     const LaneCorner& master = *cell.master;
     LaneCorner& side = slave.corner[j];
-    const Pack first = depth_[k][j], last = depth_[k][j + 1];
-    const Pack left = height_[k][j], left_last = height_[k][j + 1];
-    const Pack right = height_[k + 1][j], right_last = height_[k + 1][j + 1];
+    const Pack first = depth_[j], last = depth_[heights.last];
+    const Pack left = heights.left[j], left_last = heights.left[heights.last];
+    const Pack right = heights.right[j], right_last = heights.right[heights.last];
     const Pack surface = first / (first - last), before = left / (left - left_last),
                after = right / (right - right_last);
 
@@ -254,9 +264,9 @@ class LaneCells {
     (&side)[1].load = (&side)[1].load - at_end;
   }
 
-  Pack depth_[corners][corners + 1], height_[corners + 1][corners + 1];
-  CornerBits behind_[corners], right_[corners + 1];
-  bool clear_[corners];  ///< whether any corner of a slave is less deep than clear_depth behind the side
+  Pack depth_[corners], height_[corners][corners];
+  CornerBits some_behind_;  ///< sides of the slave with an end behind the side of the master at hand
+  CornerBits some_right_[corners], all_right_[corners];  ///< with one end, both ends of positive height
   LaneCell cell_[corners];
   LaneSegment segment_[corners * corners];  ///< cell after cell
   std::size_t cell_count_ = 0;
