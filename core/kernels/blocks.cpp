@@ -19,7 +19,10 @@ double larger(double p, double q) {
 /// numbers. By reference, since how it is passed depends on the instruction set.
 using Quad [[gnu::vector_size(32)]] = double;
 
-inline void load(const double* from, Quad& to) {
+using Pair [[gnu::vector_size(16)]] = double;
+
+template <class Vector>
+inline void load(const double* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);
 }
 template <class Vector>
@@ -285,14 +288,63 @@ double product(const Block& b, const BodyMotion& p, const BodyMotion& q) {
           r.yy * (b.moment_xy * s.yx + b.moment_yy * s.yy));
 }
 
+/// A body that deforms, in a step as long as the one before without damping: nothing but v₊ and ½ v₋ᵀ M v₊.
+/// Rates and moments are rows of four, xx, xy, yx, yy, and half a symmetric matrix serves both their halves.
+struct EvenSums {
+  Quad strain{};
+  Pair translation{}, momentum{};
+
+  void accelerate(const Block& block, const BodyForce& f, const BlockUpdate& update, const Pair& gravity,
+                  BodyMotion& now) {
+    Pair v, force;
+    load(&now.velocity.x, v);
+    load(&f.force.x, force);
+    const Pair next_v = update.keep * v + update.gain * (force / block.mass + gravity);
+    store(next_v, &now.velocity.x);
+    const Pair momentum_here = block.mass * v;
+    momentum += momentum_here;
+    translation += momentum_here * next_v;
+    Quad rate, q;
+    load(&now.rate.xx, rate);
+    load(&f.moment.xx, q);
+    Quad acceleration, moment;
+    times_symmetric(q, &block.inverse_xx, acceleration);
+    const Quad next_rate = update.keep * rate + update.gain * acceleration;
+    store(next_rate, &now.rate.xx);
+    times_symmetric(next_rate, &block.moment_xx, moment);
+    strain += rate * moment;
+  }
+  double kinetic() const {
+    return ((translation[0] + translation[1]) + ((strain[0] + strain[1]) + (strain[2] + strain[3]))) / 2;
+  }
+
+ private:
+  /// Row by row of a matrix times the symmetric one of which xx, xy, yy are given.
+  static void times_symmetric(const Quad& rows, const double* symmetric, Quad& product) {
+    Pair first, second;
+    load(symmetric, first);
+    load(symmetric + 1, second);
+    product =
+        __builtin_shufflevector(rows, rows, 0, 0, 2, 2) * __builtin_shufflevector(first, first, 0, 1, 0, 1) +
+        __builtin_shufflevector(rows, rows, 1, 1, 3, 3) * __builtin_shufflevector(second, second, 0, 1, 0, 1);
+  }
+};
+
 void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate& update, BodyMotion* motion,
                 BodyMotion* middle, std::size_t begin, std::size_t end, BlockSums& sums) {
   const double keep = update.keep, gain = update.gain;
+  const bool even = update.even_steps && !update.damped && middle == nullptr;
+  const Pair gravity{update.gravity_x, update.gravity_y};
+  EvenSums even_sums;
   for (std::size_t b = begin; b < end; ++b) {
     const Block& block = blocks[b];
     if (!block.free) continue;
     const BodyForce& f = forces[b];
     BodyMotion& now = motion[b];
+    if (even && !block.rigid) {
+      even_sums.accelerate(block, f, update, gravity, now);
+      continue;
+    }
     const BodyMotion before = now;
     now.velocity.x = keep * before.velocity.x + gain * (f.force.x / block.mass + update.gravity_x);
     now.velocity.y = keep * before.velocity.y + gain * (f.force.y / block.mass + update.gravity_y);
@@ -307,7 +359,7 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     }
     sums.momentum_x += block.mass * before.velocity.x;
     sums.momentum_y += block.mass * before.velocity.y;
-    if (update.even_steps && !update.damped && middle == nullptr) {
+    if (even) {
       sums.kinetic += product(block, before, now) / 2;
       continue;
     }
@@ -337,6 +389,9 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     }
     middle[b] = at;
   }
+  sums.kinetic += even_sums.kinetic();
+  sums.momentum_x += even_sums.momentum[0];
+  sums.momentum_y += even_sums.momentum[1];
 }
 
 }  // namespace
