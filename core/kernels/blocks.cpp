@@ -168,10 +168,24 @@ void move_blocks(const Block* blocks, double dt, BodyMotion* motion, std::size_t
   }
 }
 
-/// Σ p and Σ q.
-inline Vec2 sums(const Quad& p, const Quad& q) {
-  const Quad two = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
-  return {two[0] + two[2], two[1] + two[3]};
+/// p₀ + p₁, q₀ + q₁, p₂ + p₃, q₂ + q₃.
+inline void add_neighbours(const Quad& p, const Quad& q, Quad& to) {
+  to = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
+}
+
+/// ΣF and ΣF ⊗ X of loads x, y on corners that are at (px, py) in the reference.
+inline void add_to(BodyForce& force, const Quad& x, const Quad& y, const Quad& px, const Quad& py) {
+  Quad sum, of_x, of_y, moment;
+  add_neighbours(x, y, sum);
+  add_neighbours(x * px, x * py, of_x);
+  add_neighbours(y * px, y * py, of_y);
+  Pair total;
+  load(&force.force.x, total);
+  total += __builtin_shufflevector(sum, sum, 0, 1) + __builtin_shufflevector(sum, sum, 2, 3);
+  store(total, &force.force.x);
+  load(&force.moment.xx, moment);
+  moment += __builtin_shufflevector(of_x, of_y, 0, 1, 4, 5) + __builtin_shufflevector(of_x, of_y, 2, 3, 6, 7);
+  store(moment, &force.moment.xx);
 }
 
 /// Of a body with three or four corners.
@@ -209,13 +223,7 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     for (int i = 0; i < 3; ++i) px[i] = reference_x[i];
     for (int i = 0; i < 3; ++i) py[i] = reference_y[i];
   }
-  const Vec2 sum = sums(x, y), of_x = sums(x * px, x * py), of_y = sums(y * px, y * py);
-  force.force.x += sum.x;
-  force.force.y += sum.y;
-  force.moment.xx += of_x.x;
-  force.moment.xy += of_x.y;
-  force.moment.yx += of_y.x;
-  force.moment.yy += of_y.y;
+  add_to(force, x, y, px, py);
 }
 
 void add_to_any(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
@@ -288,11 +296,12 @@ double product(const Block& b, const BodyMotion& p, const BodyMotion& q) {
           r.yy * (b.moment_xy * s.yx + b.moment_yy * s.yy));
 }
 
-/// A body that deforms, in a step as long as the one before without damping: nothing but v₊ and ½ v₋ᵀ M v₊.
-/// Rates and moments are rows of four, xx, xy, yx, yy, and half a symmetric matrix serves both their halves.
+/// Bodies in a step as long as the one before without damping: nothing but v₊ and ½ v₋ᵀ M v₊. Rates and
+/// moments are rows of four, xx, xy, yx, yy, and half a symmetric matrix serves both their halves.
 struct EvenSums {
   Quad strain{};
   Pair translation{}, momentum{};
+  double rotation = 0;
 
   void accelerate(const Block& block, const BodyForce& f, const BlockUpdate& update, const Pair& gravity,
                   BodyMotion& now) {
@@ -304,6 +313,12 @@ struct EvenSums {
     const Pair momentum_here = block.mass * v;
     momentum += momentum_here;
     translation += momentum_here * next_v;
+    if (block.rigid) {
+      const double spin = update.keep * now.spin + update.gain * torque(now, f) / block.inertia;
+      rotation += block.inertia * now.spin * spin;
+      now.spin = spin;
+      return;
+    }
     Quad rate, q;
     load(&now.rate.xx, rate);
     load(&f.moment.xx, q);
@@ -315,7 +330,9 @@ struct EvenSums {
     strain += rate * moment;
   }
   double kinetic() const {
-    return ((translation[0] + translation[1]) + ((strain[0] + strain[1]) + (strain[2] + strain[3]))) / 2;
+    return ((translation[0] + translation[1]) +
+            (rotation + ((strain[0] + strain[1]) + (strain[2] + strain[3])))) /
+           2;
   }
 
  private:
@@ -341,7 +358,7 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     if (!block.free) continue;
     const BodyForce& f = forces[b];
     BodyMotion& now = motion[b];
-    if (even && !block.rigid) {
+    if (even) {
       even_sums.accelerate(block, f, update, gravity, now);
       continue;
     }
@@ -359,10 +376,6 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     }
     sums.momentum_x += block.mass * before.velocity.x;
     sums.momentum_y += block.mass * before.velocity.y;
-    if (even) {
-      sums.kinetic += product(block, before, now) / 2;
-      continue;
-    }
     const auto between = [&](double p, double q_) { return p + update.share_of_after * (q_ - p); };
     BodyMotion at = now;
     at.velocity = {between(before.velocity.x, now.velocity.x), between(before.velocity.y, now.velocity.y)};
