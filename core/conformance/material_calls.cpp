@@ -204,6 +204,8 @@ std::span<const Check> material_checks() {
       {"split", "the same bits in any split of a batch, in any thread", check_material_split},
       {"writes", "writes only where it may", check_material_writes},
       {"reads", "reads nothing past its arrays, nor what it says it does not need", check_material_reads},
+      {"sweep", "elements at once give the forces and the energy that they give one by one",
+       check_material_sweep},
       {"degenerate", "large strains give finite stress; what is no number comes to an end",
        check_material_degenerate},
       {"cost", "what an element costs", measure_material_cost}};

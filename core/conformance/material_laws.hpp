@@ -23,6 +23,7 @@ void check_material_restore(const Subject& subject, Trial& trial);
 void check_material_split(const Subject& subject, Trial& trial);
 void check_material_writes(const Subject& subject, Trial& trial);
 void check_material_reads(const Subject& subject, Trial& trial);
+void check_material_sweep(const Subject& subject, Trial& trial);
 void check_material_degenerate(const Subject& subject, Trial& trial);
 void measure_material_cost(const Subject& subject, Trial& trial);
 

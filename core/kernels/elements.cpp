@@ -165,7 +165,7 @@ simd::Packs2 patches_at(const LocalVectors& at, const std::uint32_t* number, std
       both[2 * lane + 1] = at.y[i];
       from[lane] = both + 2 * lane;
     } else {
-      from[lane] = at.x + 2 * i;
+      from[lane] = at.x + i;
     }
   }
   return simd::gather_points(from);
@@ -193,13 +193,11 @@ void triangle_gradient(std::uint32_t count, const Triangles& t, const LocalVecto
   with(at.apart(), [&](auto apart) { gradient_of_triangles<apart>(count, t, at, f); });
 }
 
-template <bool apart>
-void force_of_triangles(std::uint32_t count, const Triangles& t, const double* const p[4],
-                        const LocalVectors& force) {
+void triangle_force(std::uint32_t count, const Triangles& t, const double* const p[4],
+                    const LocalVectors& force) {
   const auto give = [&](std::uint32_t i, double x, double y) __attribute__((always_inline)) {
-    double* to = apart ? force.x + i : force.x + 2 * i;
-    *to += x;
-    *(apart ? force.y + i : to + 1) += y;
+    force.x[i] += x;
+    force.y[i] += y;
   };
   in_packs(
       count, [&](std::uint32_t e, auto row) __attribute__((always_inline)) {
@@ -220,11 +218,6 @@ void force_of_triangles(std::uint32_t count, const Triangles& t, const double* c
           give(t.corner[2][e + lane], -o[2], -o[3]);
         }
       });
-}
-
-void triangle_force(std::uint32_t count, const Triangles& t, const double* const p[4],
-                    const LocalVectors& force) {
-  with(force.apart(), [&](auto apart) { force_of_triangles<apart>(count, t, p, force); });
 }
 
 double sum(std::uint32_t count, const double* value) {

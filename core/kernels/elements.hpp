@@ -24,7 +24,8 @@ struct LocalVectors {
   LocalVectors from(std::uint32_t i) const { return {x + stride * i, y + stride * i, stride}; }
 };
 
-/// Triangles of any shape: the numbers of their corners, ∇w of the second and third, area; [triangle].
+/// Triangles of any shape: the entries of x and y of their corners (their numbers times the stride), ∇w of
+/// the second and third, area; [triangle].
 struct Triangles {
   const std::uint32_t* corner[3];
   const double* gradient[4];  ///< second x, y, third x, y, 1/m

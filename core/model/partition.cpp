@@ -10,9 +10,11 @@
 namespace talus {
 namespace {
 
-constexpr std::int32_t tile_columns = 128, tile_rows = 32;  ///< cells of a lattice in a subdomain
-constexpr std::uint32_t elements_at_once = 256;             ///< in a chunk
-constexpr std::uint32_t triangles_in_subdomain = 4096;
+constexpr std::int32_t tile_columns = 128;       ///< cells of a lattice in a row of a subdomain
+constexpr std::uint32_t elements_at_once = 256;  ///< in a chunk
+/// Elements of a subdomain of triangles, of a lattice twice as many: the more, the fewer patches are common,
+/// up to what a core's own cache holds; and some subdomains for each thread.
+constexpr std::uint32_t least_elements = 4096, most_elements = 16384, wanted_subdomains = 16;
 constexpr std::uint32_t patches_in_run = 256;
 constexpr std::uint32_t row_start = 8;  ///< numbers of rows of a lattice start at multiples: vectors align
 
@@ -35,8 +37,19 @@ struct Work {
   std::vector<std::uint32_t> number;           ///< [patch] new
 };
 
+/// By the elements of a body, how many times as large as the least its subdomains are: a power of two.
+std::uint32_t enlargement(std::size_t elements, std::uint32_t least) {
+  std::uint32_t times = 1;
+  while (2 * times * least_elements <= most_elements &&
+         elements / (2 * std::size_t{times} * least) >= wanted_subdomains)
+    times *= 2;
+  return times;
+}
+
 void order_by_tile(Work& work) {
   const auto& element = work.lattice->element;
+  const auto tile_rows = static_cast<std::int32_t>(enlargement(element.size(), 2 * least_elements) *
+                                                   least_elements / tile_columns);
   const auto tile = [&](std::uint32_t e) {
     return std::pair(floor_divide(element[e].cell.row, tile_rows),
                      floor_divide(element[e].cell.column, tile_columns));
@@ -65,8 +78,8 @@ void order_along_curve(Work& work) {
   std::sort(work.order.begin(), work.order.end(), [&](std::uint32_t d, std::uint32_t e) {
     return along[d] != along[e] ? along[d] < along[e] : d < e;
   });
-  for (std::uint32_t i = 0; i < work.order.size(); i += triangles_in_subdomain)
-    work.subdomain_start.push_back(i);
+  const std::uint32_t triangles = enlargement(work.order.size(), least_elements) * least_elements;
+  for (std::uint32_t i = 0; i < work.order.size(); i += triangles) work.subdomain_start.push_back(i);
 }
 
 void find_common(Work& work, const std::vector<std::uint32_t>& loaded) {
@@ -240,6 +253,7 @@ class SubdomainMaker {
   }
 
   void add_chunks(std::uint32_t begin, std::uint32_t end, std::vector<std::uint32_t>& final_order) {
+    const std::uint32_t stride = work_.lattice ? 1 : 2;
     std::vector<std::uint32_t> rest;
     for (std::uint32_t i = begin; work_.lattice && i < end; ++i) {
       const LatticePlaces::ElementPlace& place = work_.lattice->element[work_.order[i]];
@@ -269,7 +283,7 @@ class SubdomainMaker {
       for (std::uint32_t n = k; n < k + count; ++n) {
         final_order.push_back(rest[n]);
         for (std::size_t c = 0; c < 3; ++c)
-          partition_.corner[c].push_back(local_[work_.cover.elements[rest[n]].patches[c]]);
+          partition_.corner[c].push_back(stride * local_[work_.cover.elements[rest[n]].patches[c]]);
       }
     }
   }

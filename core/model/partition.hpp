@@ -56,9 +56,10 @@ struct Partition {
   std::vector<std::uint32_t> common_slot;
   std::vector<RegularLattice> lattices;  ///< [body] of many elements
   // Triangles of any shape.
-  std::array<std::vector<std::uint32_t>, 3> corner;  ///< numbers of the subdomain
-  std::array<std::vector<double>, 4> gradient;       ///< second corner x, y, third x, y, 1/m
-  std::vector<double> area;                          ///< m²
+  /// Numbers of the subdomain; twice that in bodies without a lattice, whose vectors have y beside x.
+  std::array<std::vector<std::uint32_t>, 3> corner;
+  std::array<std::vector<double>, 4> gradient;  ///< second corner x, y, third x, y, 1/m
+  std::vector<double> area;                     ///< m²
 
   std::uint32_t common_count() const {
     return common_start.empty() ? 0 : static_cast<std::uint32_t>(common_start.size() - 1);

@@ -1,6 +1,7 @@
 #include "simulation/element_sweep.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace talus {
 namespace {
@@ -13,10 +14,14 @@ double* flat(std::vector<Vec2>& values, std::size_t patch) {
 
 using kernels::LocalVectors;
 
-/// Over twice as many values as there are patches.
-LocalVectors local_vectors(std::vector<double>& values, bool apart) {
-  double* first = values.data();
-  return apart ? LocalVectors{first, first + values.size() / 2, 1} : LocalVectors{first, first + 1, 2};
+constexpr std::size_t line = 64 / sizeof(double);  ///< doubles in a line of the cache
+
+/// Rows for `patches` patches, a multiple of a line, that start where a line does: packs of rows do not
+/// straddle.
+LocalVectors local_vectors(std::vector<double>& values, std::size_t patches, bool apart) {
+  const std::size_t off = reinterpret_cast<std::uintptr_t>(values.data()) / sizeof(double) % line;
+  double* first = values.data() + (line - off) % line;
+  return apart ? LocalVectors{first, first + patches, 1} : LocalVectors{first, first + 1, 2};
 }
 
 Vec2 vector_of(const LocalVectors& vectors, std::uint32_t patch) {
@@ -33,10 +38,48 @@ void clear(const LocalVectors& vectors, std::uint32_t count) {
   if (vectors.apart()) std::fill_n(vectors.y, count, 0.0);
 }
 
+void fetch_ahead(const MotionState& motion, const PatchRun& run) {
+  constexpr std::uint32_t in_line = 64 / sizeof(Vec2);
+  for (std::uint32_t i = 0; i < run.count; i += in_line) {
+    __builtin_prefetch(&motion.patch_displacement[run.patch + i], 1);
+    __builtin_prefetch(&motion.patch_velocity[run.patch + i], 1);
+  }
+}
+
+/// Gradients and corners of a chunk of triangles.
+void fetch_ahead(const Partition& partition, const ElementChunk& chunk) {
+  const auto fetch = [&](const auto& values) {
+    const std::size_t in_line = 64 / sizeof values[0];
+    for (std::size_t i = chunk.triangle; i < chunk.triangle + chunk.count; i += in_line)
+      __builtin_prefetch(&values[i]);
+  };
+  for (const auto& corner : partition.corner) fetch(corner);
+  for (const auto& gradient : partition.gradient) fetch(gradient);
+  fetch(partition.area);
+}
+
 using Four = std::array<double*, 4>;
 
 Four rows(double (&component)[4][ElementBuffer::most]) {
   return {component[0], component[1], component[2], component[3]};
+}
+
+LatticeCells cells_of(const RegularLattice& lattice, const ElementChunk& chunk, const LocalVectors& at,
+                      const LocalVectors& force) {
+  const LocalVectors bottom = at.from(chunk.bottom), top = at.from(chunk.top),
+                     on_bottom = force.from(chunk.bottom), on_top = force.from(chunk.top);
+  LatticeCells cells{chunk.cells, {},          lattice.area, bottom.x, bottom.y, top.x,
+                     top.y,       on_bottom.x, on_bottom.y,  on_top.x, on_top.y};
+  std::copy(lattice.gradient.begin(), lattice.gradient.end(), cells.gradient);
+  return cells;
+}
+
+TriangleList list_of(const kernels::Triangles& t, std::uint32_t count, const LocalVectors& at,
+                     const LocalVectors& force) {
+  TriangleList list{count, at.stride - 1, {}, {}, t.area, at.x, at.y, force.x, force.y};
+  std::copy(std::begin(t.corner), std::end(t.corner), list.corner);
+  std::copy(std::begin(t.gradient), std::end(t.gradient), list.gradient);
+  return list;
 }
 
 kernels::Triangles triangles_of(const Partition& partition, const ElementChunk& chunk) {
@@ -52,12 +95,12 @@ kernels::Triangles triangles_of(const Partition& partition, const ElementChunk& 
 ElementSweep::ElementSweep(const Model& model, SimdLevel level)
     : kernels_(kernels::element_kernels(level)), slot_(model.partition.slot_patch.size()) {
   for (const Subdomain& subdomain : model.partition.subdomains)
-    most_patches_ = std::max<std::size_t>(most_patches_, subdomain.patch_count);
+    most_patches_ = std::max<std::size_t>(most_patches_, (subdomain.patch_count + line - 1) / line * line);
 }
 
 ElementSweep::Workspace ElementSweep::workspace() const {
   Workspace w;
-  for (auto* values : {&w.displacement, &w.force}) values->resize(2 * most_patches_);
+  for (auto* values : {&w.displacement, &w.force}) values->resize(2 * most_patches_ + line);
   return w;
 }
 
@@ -68,9 +111,11 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
   const RegularLattice& lattice = partition.lattices[body.lattice];
   const std::uint32_t first = model.first_element(body);
   const std::uint32_t batch = materials.batch_of(first);
+  const Material* const sweeping = materials.sweeping(batch);
   const Four f = rows(w.elements.deformation), p = rows(w.elements.stress);
   const bool apart = lattice.area > 0;
-  const LocalVectors at = local_vectors(w.displacement, apart), force = local_vectors(w.force, apart);
+  const LocalVectors at = local_vectors(w.displacement, most_patches_, apart),
+                     force = local_vectors(w.force, most_patches_, apart);
 
   const auto enter = [&](const PatchRun& run) {
     kernels_.move(run.count, motion.own_behind, flat(motion.patch_displacement, run.patch),
@@ -105,20 +150,33 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
       const ElementChunk& chunk = partition.chunks[c];
       const std::uint32_t bottom = chunk.bottom, top = chunk.top;
       for (; entered < chunk.run_needed; ++entered) enter(partition.runs[entered]);
-      if (chunk.cells > 0) {
-        kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
-                                  at.x + top, at.y + top, f.data());
-      } else {
-        kernels_.triangle_gradient(chunk.count, triangles_of(partition, chunk), at, f.data());
+      const bool cells = chunk.cells > 0;
+      const kernels::Triangles triangles = cells ? kernels::Triangles{} : triangles_of(partition, chunk);
+      // What the next chunk needs comes from memory while this one is worked on.
+      if (c + 1 < subdomain.chunk_end) {
+        for (std::uint32_t r = entered; r < partition.chunks[c + 1].run_needed; ++r)
+          fetch_ahead(motion, partition.runs[r]);
+        if (partition.chunks[c + 1].cells == 0) fetch_ahead(partition, partition.chunks[c + 1]);
       }
-      materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
-      if (chunk.cells > 0) {
+      // A material that goes on to the forces by itself is asked for stress where that is kept alone.
+      if (sweeping == nullptr || step.keep) {
+        if (cells) {
+          kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
+                                    at.x + top, at.y + top, f.data());
+        } else {
+          kernels_.triangle_gradient(chunk.count, triangles, at, f.data());
+        }
+        materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
+      }
+      if (sweeping != nullptr) {
+        sum.stored += cells ? sweeping->sweep(cells_of(lattice, chunk, at, force))
+                            : sweeping->sweep(list_of(triangles, chunk.count, at, force));
+      } else if (cells) {
         kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), force.x + bottom,
                                force.y + bottom, force.x + top, force.y + top);
         sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
         sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
       } else {
-        const kernels::Triangles triangles = triangles_of(partition, chunk);
         kernels_.triangle_force(chunk.count, triangles, p.data(), force);
         sum.stored += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.energy);
         sum.dissipated += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.dissipated);

@@ -38,7 +38,7 @@ class ElementSweep {
 
   /// What one thread needs.
   struct Workspace {
-    std::vector<double> displacement, force;  ///< [2 · patch of the subdomain] m, N/m
+    std::vector<double> displacement, force;  ///< [2 · patch of the subdomain, and some] m, N/m
     ElementBuffer elements;
   };
   Workspace workspace() const;

@@ -18,7 +18,10 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     auto material = make<Material>(*choice.component, choice.values);
     const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
     const bool needs_previous = material->needs_previous_deformation();
-    batches_.push_back({std::move(material), begin, end, needs_previous, std::vector<double>(states)});
+    const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
+    const Material* const sweeping = sweeps ? material.get() : nullptr;
+    batches_.push_back(
+        {std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states)});
   }
 }
 

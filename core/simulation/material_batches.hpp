@@ -34,6 +34,9 @@ class MaterialBatches {
   std::uint32_t begin(std::uint32_t batch) const { return batches_[batch].begin; }
   std::uint32_t end(std::uint32_t batch) const { return batches_[batch].end; }
 
+  /// The material of a batch if it takes elements from displacements to forces itself, or null.
+  const Material* sweeping(std::uint32_t batch) const { return batches_[batch].sweeping; }
+
   /// Stress and energies of `count` elements of a batch from the deformation in the buffer. `keep`: for
   /// output. Different elements may be evaluated at once, each with a buffer of its own.
   void evaluate(std::uint32_t batch, std::uint32_t element, std::uint32_t count, double dt, bool keep,
@@ -52,6 +55,7 @@ class MaterialBatches {
     Made<Material> material;
     std::uint32_t begin, end;  ///< elements
     bool needs_previous;
+    const Material* sweeping;
     std::vector<double> state;
   };
 

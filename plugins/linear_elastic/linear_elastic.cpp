@@ -1,5 +1,6 @@
 // Isotropic linear elasticity in the frame that turns with the body. See README.md beside.
 
+#include <talus/elements/sweep.hpp>
 #include <talus/library.hpp>
 #include <talus/plane_tensor.hpp>
 
@@ -34,6 +35,56 @@ struct PolarStrain {
   return {{c, s}, size, {c * f.xx + s * f.yx - 1, -s * f.xy + c * f.yy - 1, c * f.xy + s * f.yy}};
 }
 
+/// The same law without damping, of H = F − I in packs, and without a root where strain is small. The part of
+/// F that turns and swells, (c −s; s c) with c = 1 + tr H / 2, has the size m = tr U / 2, and the rest of F
+/// is linear in H and has no part in R. So P = k (1 − 1/m) (c −s; s c) + G (H_xx − H_yy, H_xy + H_yx; the
+/// same, H_yy − H_xx) with k = D_11 + D_12, and Π = k (m − 1)² + G/2 ((H_xx − H_yy)² + (H_xy + H_yx)²).
+class SmallStrainPacks {
+ public:
+  explicit SmallStrainPacks(const PlaneModuli& d) : half_size_((d.along + d.across) / 2), shear_(d.shear) {}
+
+  template <int packs>
+  [[gnu::always_inline]] void operator()(const elements::PlanePacks (&h)[packs],
+                                         elements::PlanePacks (&stress)[packs],
+                                         simd::Pack (&energy)[packs]) const {
+    using simd::Pack;
+    Pack trace[packs], skew[packs], x[packs], share[packs];
+    simd::Mask near[packs], all_near{};
+    for (int i = 0; i < packs; ++i) {
+      trace[i] = h[i].xx + h[i].yy;
+      skew[i] = h[i].yx - h[i].xy;
+      x[i] = trace[i] * (4.0 + trace[i]) + skew[i] * skew[i];  // 4 m² − 4, without the cancellation
+      share[i] = one_less_inverse_root(x[i]);
+      near[i] = simd::abs(x[i]) <= bound;
+      all_near = i == 0 ? near[i] : all_near & near[i];
+    }
+    if (simd::any(!all_near)) [[unlikely]] {
+      for (int i = 0; i < packs; ++i)
+        share[i] = simd::select(near[i], share[i], 1.0 - 2.0 / simd::sqrt(4.0 + x[i]));
+    }
+    for (int i = 0; i < packs; ++i) {
+      const Pack along = h[i].xx - h[i].yy, across = h[i].yx + h[i].xy;
+      const Pack swell = half_size_ * share[i];
+      const Pack c = swell * (2.0 + trace[i]), s = swell * skew[i];
+      const Pack p = shear_ * along, q = shear_ * across;
+      stress[i] = {c + p, q - s, q + s, c - p};
+      energy[i] = 0.5 * ((swell * share[i]) * (4.0 + x[i]) + (p * along + q * across));
+    }
+  }
+
+ private:
+  static constexpr double bound = 0x1p-6;  ///< of x: strains of 0.2 %
+
+  /// 1 − 1/√(1 + x/4) by its series; what is left out is below 2⁻⁵⁸.
+  [[gnu::always_inline]] static simd::Pack one_less_inverse_root(simd::Pack x) {
+    const simd::Pack square = x * x;
+    return x * ((1.0 / 8 - 3.0 / 128 * x) +
+                square * ((5.0 / 1024 - 35.0 / 32768 * x) + square * (63.0 / 262144 - 231.0 / 4194304 * x)));
+  }
+
+  double half_size_, shear_;  ///< Pa
+};
+
 /// Total corotational form: F = R U by polar decomposition from the reference, Biot strain U − I, σ̂ = D ε̂
 /// (Eq. 2, 7). No rate is integrated, so a spinning block gathers no strain. Π = ½ ε̂ᵀ D ε̂ per reference
 /// volume.
@@ -59,6 +110,14 @@ class LinearElastic final : public Material {
   double viscous_time() const noexcept override { return damping_time_; }
 
   bool needs_previous_deformation() const noexcept override { return damping_time_ > 0; }
+
+  bool sweeps() const noexcept override { return damping_time_ == 0; }
+  double sweep(const LatticeCells& cells) const noexcept override {
+    return elements::sweep(cells, SmallStrainPacks(moduli_));
+  }
+  double sweep(const TriangleList& triangles) const noexcept override {
+    return elements::sweep(triangles, SmallStrainPacks(moduli_));
+  }
 
  private:
   /// No branch within, and the arrays are apart (ivdep): the loop becomes one over vectors.

@@ -63,8 +63,8 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
                              {"cohesive_overlap", {}},
                              {"potential_symmetric", {"friction"}},
                              {"linear_elastic", {}},
-                             {"hypoelastic", {"potential"}},
-                             {"mohr_coulomb", {"potential"}},
+                             {"hypoelastic", {"potential", "sweep"}},
+                             {"mohr_coulomb", {"potential", "sweep"}},
                              {"block", {"boundary"}},
                              {"rigid", {"area", "unity", "affine", "boundary"}},
                              {"hexagonal", {}},
@@ -131,6 +131,7 @@ TEST_CASE("a material that is wrong fails in the one check that is meant for it"
   expect_one_failure({{"ignores_rotation", "objectivity"},
                       {"slow_waves", "tangent"},
                       {"stores_double", "power"},
+                      {"sweeps_otherwise", "sweep"},
                       {"works_in_eights", "writes"}});
 }
 

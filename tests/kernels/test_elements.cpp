@@ -59,19 +59,22 @@ struct Vectors {
   }
 };
 
-/// The cells of a lattice as triangles with numbers: bottom row 0, 1, ..., then the top row.
+/// The cells of a lattice as triangles with numbers: bottom row 0, 1, ..., then the top row. Vectors apart or
+/// beside each other.
 struct CellsAsTriangles {
   std::vector<std::uint32_t> corner[3];
   std::vector<double> gradient[4], area;
+  std::uint32_t stride;
 
-  CellsAsTriangles(std::uint32_t cells, const std::array<double, 4>& g, double each) {
+  CellsAsTriangles(std::uint32_t cells, const std::array<double, 4>& g, double each, bool apart)
+      : stride(apart ? 1 : 2) {
     const std::uint32_t top = cells + 1;
     for (std::uint32_t c = 0; c < cells; ++c) add({c, c + 1, top + c}, g, 1, each);
     for (std::uint32_t c = 0; c < cells; ++c) add({top + c + 1, top + c, c + 1}, g, -1, each);
   }
   void add(const std::array<std::uint32_t, 3>& corners, const std::array<double, 4>& g, double sign,
            double each) {
-    for (std::size_t k = 0; k < 3; ++k) corner[k].push_back(corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) corner[k].push_back(stride * corners[k]);
     for (std::size_t k = 0; k < 4; ++k) gradient[k].push_back(sign * g[k]);
     area.push_back(each);
   }
@@ -96,8 +99,8 @@ TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernel
     Tensors as_cells(2 * cells), as_triangles(2 * cells);
     loops.lattice_gradient(cells, steep.data(), x.data(), y.data(), x.data() + row, y.data() + row,
                            as_cells.rows.data());
-    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1).arrays(), Vectors(x, y, apart).local,
-                            as_triangles.rows.data());
+    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1, apart).arrays(),
+                            Vectors(x, y, apart).local, as_triangles.rows.data());
     double largest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::size_t e = 0; e < 2 * cells; ++e)
@@ -119,7 +122,7 @@ TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]
     const Vectors force(before_x, before_y, apart);
     loops.lattice_force(cells, steep.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
                         y.data() + row);
-    loops.triangle_force(2 * cells, CellsAsTriangles(cells, steep, 0.75).arrays(), stress.rows.data(),
+    loops.triangle_force(2 * cells, CellsAsTriangles(cells, steep, 0.75, apart).arrays(), stress.rows.data(),
                          force.local);
     double largest = 0, sum_x = 0, moved = 0;
     for (std::size_t i = 0; i < 2 * row; ++i) {

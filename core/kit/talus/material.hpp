@@ -20,6 +20,30 @@ struct MaterialResponse {
   double* state;       ///< of t_n; separate from MaterialBatch::state
 };
 
+/// Cells of a regular lattice side by side, each a lower and an upper triangle. Cell c has the corners c, c +
+/// 1 of the bottom row and of the top row; its lower triangle has the corners bottom c, bottom c + 1, top c,
+/// its upper one the other corner of each.
+struct LatticeCells {
+  std::uint32_t count;
+  double gradient[4];  ///< 1/m, ∇w of the second corner of a lower triangle x, y, and of the third; an upper
+                       ///< one has the opposite
+  double area;                                        ///< m², of a triangle
+  const double *bottom_x, *bottom_y, *top_x, *top_y;  ///< [count + 1] m, displacement
+  double *bottom_force_x, *bottom_force_y;            ///< [count + 1] N/m
+  double *top_force_x, *top_force_y;                  ///< [count + 1] N/m
+};
+
+/// Triangles of any shape.
+struct TriangleList {
+  std::uint32_t count;
+  std::uint32_t beside;            ///< 1: y of a corner lies beside its x; 0: in a row of its own
+  const std::uint32_t* corner[3];  ///< [triangle] which entry of x and of y each corner is
+  const double* gradient[4];       ///< [triangle] 1/m, ∇w of the second corner x, y, and of the third
+  const double* area;              ///< [triangle] m²
+  const double *x, *y;             ///< m, displacement
+  double *force_x, *force_y;       ///< N/m
+};
+
 /// A constitutive law (Eq. 2). Const: all state lives with the host.
 class Material {
  public:
@@ -39,6 +63,17 @@ class Material {
   /// Whether evaluate() reads previous_deformation. A material that says no spares the host to keep it for
   /// every element.
   virtual bool needs_previous_deformation() const noexcept { return true; }
+
+  /// Whether the material takes elements from displacements to forces itself, by the two calls below. They
+  /// then stand for evaluate() in bodies of many elements, to which they are equal but for rounding, at
+  /// several times the speed: what lies between stays in registers (`talus/elements/sweep.hpp` has the
+  /// loops). For laws without state that dissipate nothing and need no previous deformation.
+  virtual bool sweeps() const noexcept { return false; }
+
+  /// Takes area · P ∇w off the forces of the corners (Eq. 18) and returns what the elements store, J/m. The
+  /// bits may depend on how elements are grouped into calls, and on nothing else.
+  virtual double sweep(const LatticeCells& /*cells*/) const noexcept { return 0; }
+  virtual double sweep(const TriangleList& /*triangles*/) const noexcept { return 0; }
 };
 
 }  // namespace talus
