@@ -235,6 +235,7 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
     add_mass(model, elements.back(), laid, density);
     size += size_of(elements.back());
     model.elements.push_back(elements.back());
+    model.element_region.resize(model.elements.size() - 1);  // affine blocks before have none
     model.element_region.push_back(std::move(laid.region));
   }
   steady_patches(model, body, cover, density);

@@ -58,8 +58,7 @@ void add_element_of_block(Model& model, std::uint32_t index) {
   Element element;
   element.body = index;
   element.area = model.bodies[index].moments.area;
-  model.elements.push_back(element);
-  model.element_region.emplace_back();
+  model.elements.push_back(element);  // its region, of none, is added where there are others
 }
 
 /// Where point loads act on a body in any stage, relative to its centroid.
@@ -116,20 +115,36 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
   body.corner_end = static_cast<std::uint32_t>(model.surface.size());
 }
 
+/// So that arrays of bodies that move as a whole, by far the most, need not grow, which would leave holes.
+void make_room(Model& model, const Scene& scene) {
+  model.bodies.reserve(scene.bodies.size());
+  std::size_t corners = 0, pieces = 0;
+  for (const SceneBody& body : scene.bodies) {
+    corners += body.outer.vertices.size();
+    pieces += 1;
+  }
+  model.reference_x.reserve(corners);
+  model.reference_y.reserve(corners);
+  model.surface.reserve(corners);
+  model.cut.reserve(corners);
+  model.piece_body.reserve(pieces);
+  model.piece_start.reserve(pieces + 1);
+  model.is_strip.reserve(pieces);
+  model.piece_strip.reserve(pieces);
+  model.elements.reserve(pieces);
+}
+
 /// One batch per material needs the elements side by side.
 void sort_elements(Model& model, const Scene& scene) {
+  const auto material = [&](std::uint32_t e) { return scene.bodies[model.elements[e].body].material; };
   std::vector<std::uint32_t> order(model.elements.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto material = [&](std::uint32_t e) { return scene.bodies[model.elements[e].body].material; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); });
-  std::vector<Element> elements;
-  std::vector<std::vector<Ring>> regions;
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); };
+  const bool sorted = std::is_sorted(order.begin(), order.end(), before);
+  if (!sorted) std::stable_sort(order.begin(), order.end(), before);
   model.body_element.resize(order.size());
   model.material_element_start.assign(scene.materials.size() + 1, 0);
   for (std::uint32_t i = 0; i < order.size(); ++i) {
-    elements.push_back(model.elements[order[i]]);
-    regions.push_back(std::move(model.element_region[order[i]]));
     model.body_element[order[i]] = i;
     ++model.material_element_start[material(order[i]) + 1];
   }
@@ -141,8 +156,17 @@ void sort_elements(Model& model, const Scene& scene) {
     while (entry < order.size() && model.elements[entry].body == body) ++entry;
     model.bodies[body].element_end = entry;
   }
-  model.elements = std::move(elements);
-  model.element_region = std::move(regions);
+  if (!model.element_region.empty()) model.element_region.resize(order.size());
+  if (sorted) return;
+  const auto reorder = [&](auto& of_elements) {
+    if (of_elements.empty()) return;
+    auto listed = std::move(of_elements);
+    of_elements.clear();
+    of_elements.reserve(order.size());
+    for (const std::uint32_t e : order) of_elements.push_back(std::move(listed[e]));
+  };
+  reorder(model.elements);
+  reorder(model.element_region);
 }
 
 void measure_widths(Model& model) {
@@ -209,7 +233,7 @@ std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, st
 Model build_model(const Scene& scene) {
   Model model;
   model.piece_start.push_back(0);
-  model.bodies.reserve(scene.bodies.size());
+  make_room(model, scene);
   std::vector<RefusedBody> refused;
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
     try {
@@ -225,7 +249,7 @@ Model build_model(const Scene& scene) {
     if (model.moves(i)) model.moving_bodies.push_back(i);
     if (model.covered(i)) model.covered_bodies.push_back(i);
   }
-  if (model.covered_bodies.empty()) model.element_region.clear();
+  if (model.covered_bodies.empty()) model.piece_strip.clear();
   for (const std::vector<Ring>& region : model.element_region) model.element_box.push_back(box_of(region));
   const auto fit = [](auto&... grown) { (grown.shrink_to_fit(), ...); };
   fit(model.reference_x, model.reference_y, model.surface, model.cut, model.piece_start, model.piece_body,

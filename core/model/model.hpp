@@ -13,7 +13,7 @@
 namespace talus {
 
 /// How a body moves: not at all, by (u, θ), by (u, H) of one element, or by the displacements of its patches.
-enum class Kinematics { fixed, rigid, affine, covered };
+enum class Kinematics : std::uint8_t { fixed, rigid, affine, covered };
 
 struct Matrix2 {
   double xx = 0, xy = 0, yx = 0, yy = 0;
@@ -66,15 +66,15 @@ struct Strip {
 /// What stays of a body while it moves. Positions X are relative to the centroid at the start.
 struct Body {
   Kinematics kinematics = Kinematics::fixed;
-  Vec2 centre;             ///< m, centroid at the start, without the scene's origin
-  double mass = 0;         ///< kg per metre of thickness
-  AreaMoments moments{};   ///< about the centroid
-  double inertia = 0;      ///< kg m, about the centroid (rigid)
-  Matrix2 inverse_moment;  ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
-  double strain_mass_scale = 1;  ///< see StrainMass (affine)
-  double width = 0;           ///< m, smallest; of many elements: the smaller of that and their typical size
   bool meets_itself = false;  ///< whether parts of its boundary may touch each other
-  double contact_mass = 0;    ///< kg per metre: that of the body, or of a patch of the boundary
+  Vec2 centre;                ///< m, centroid at the start, without the scene's origin
+  double mass = 0;            ///< kg per metre of thickness
+  AreaMoments moments{};      ///< about the centroid
+  double inertia = 0;         ///< kg m, about the centroid (rigid)
+  Matrix2 inverse_moment;     ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
+  double strain_mass_scale = 1;  ///< see StrainMass (affine)
+  double width = 0;         ///< m, smallest; of many elements: the smaller of that and their typical size
+  double contact_mass = 0;  ///< kg per metre: that of the body, or of a patch of the boundary
   double contact_depth = std::numeric_limits<double>::infinity();  ///< m, how deep contact can be seen
   std::uint32_t corner_begin = 0, corner_end = 0;
   std::uint32_t piece_begin = 0, piece_end = 0;
@@ -109,7 +109,7 @@ struct Model {
   std::vector<std::uint32_t> piece_start;        ///< [piece + 1]
   std::vector<std::uint32_t> piece_body;         ///< [piece]
   std::vector<std::uint8_t> is_strip;            ///< [piece]
-  std::vector<std::uint32_t> piece_strip;        ///< [piece] of a strip: its entry in `strips`
+  std::vector<std::uint32_t> piece_strip;        ///< [piece] of a strip: its entry in `strips`; or empty
   std::vector<Strip> strips;
   std::vector<std::uint32_t> competitors;  ///< sides that a strip shares its ground with
 

@@ -31,7 +31,7 @@ Vec2 displacement(const BodyMotion& m, Vec2 p) {
   return {m.u.x + m.h.xx * p.x + m.h.xy * p.y, m.u.y + m.h.yx * p.x + m.h.yy * p.y};
 }
 
-Vec2 velocity(const BodyMotion& m, Vec2 p) {
+Vec2 velocity(const BodyVelocity& m, Vec2 p) {
   return {m.velocity.x + m.rate.xx * p.x + m.rate.xy * p.y, m.velocity.y + m.rate.yx * p.x + m.rate.yy * p.y};
 }
 
@@ -135,7 +135,10 @@ void MotionState::move_boundary(const Model& model) {
 void MotionState::shape_boundary(const Model& model, std::size_t body) {
   if (model.bodies[body].kinematics == Kinematics::covered)
     shape_strips(model, static_cast<std::uint32_t>(body), *this);
-  measure_sides(model, body);
+  for (std::uint32_t piece = model.bodies[body].piece_begin; piece < model.bodies[body].piece_end; ++piece) {
+    const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
+    measure_sides(std::span(corners).subspan(begin, end - begin));
+  }
 }
 
 void MotionState::move_corners(const Model& model, std::size_t index) {
@@ -166,17 +169,14 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
   }
 }
 
-void MotionState::measure_sides(const Model& model, std::size_t body) {
-  for (std::uint32_t piece = model.bodies[body].piece_begin; piece < model.bodies[body].piece_end; ++piece) {
-    const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
-    for (std::uint32_t c = begin; c < end; ++c) {
-      BoundaryCorner& corner = corners[c];
-      const BoundaryCorner& next = corners[c + 1 == end ? begin : c + 1];
-      const double dx = next.x - corner.x, dy = next.y - corner.y;
-      corner.length = std::sqrt(dx * dx + dy * dy);
-      corner.tangent_x = corner.length > 0 ? dx / corner.length : 0;
-      corner.tangent_y = corner.length > 0 ? dy / corner.length : 0;
-    }
+void measure_sides(std::span<BoundaryCorner> ring) {
+  for (std::size_t c = 0; c < ring.size(); ++c) {
+    BoundaryCorner& corner = ring[c];
+    const BoundaryCorner& next = ring[c + 1 == ring.size() ? 0 : c + 1];
+    const double dx = next.x - corner.x, dy = next.y - corner.y;
+    corner.length = std::sqrt(dx * dx + dy * dy);
+    corner.tangent_x = corner.length > 0 ? dx / corner.length : 0;
+    corner.tangent_y = corner.length > 0 ? dy / corner.length : 0;
   }
 }
 

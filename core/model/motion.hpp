@@ -6,6 +6,7 @@
 #include <talus/contact_model.hpp>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace talus {
@@ -18,6 +19,12 @@ struct BodyMotion {
   Vec2 velocity;    ///< m/s
   Matrix2 rate;     ///< 1/s
   double spin = 0;  ///< rad/s, of a rigid body
+};
+
+/// What a BodyMotion says of the velocity of its points.
+struct BodyVelocity {
+  Vec2 velocity;  ///< m/s
+  Matrix2 rate;   ///< 1/s
 };
 
 /// Generalised forces of a body: ΣF and ΣF ⊗ X, per metre of thickness.
@@ -78,14 +85,17 @@ struct MotionState {
     /// m/s, bound of what each of two corners does to close a gap between them, in the frame that shares it.
     double closing() const { return std::min(largest, relative / 2); }
   };
-
- private:
-  void measure_sides(const Model& model, std::size_t body);
 };
 
 /// Of the point of a body that moves as a whole.
 Vec2 displacement(const BodyMotion& motion, Vec2 reference);
-Vec2 velocity(const BodyMotion& motion, Vec2 reference);
+Vec2 velocity(const BodyVelocity& motion, Vec2 reference);
+inline Vec2 velocity(const BodyMotion& motion, Vec2 reference) {
+  return velocity(BodyVelocity{motion.velocity, motion.rate}, reference);
+}
+
+/// Tangents and lengths of the sides of a ring from its corners.
+void measure_sides(std::span<BoundaryCorner> ring);
 
 /// Σ w_i d_i (Eq. 11).
 Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values);
@@ -97,6 +107,11 @@ Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values);
 inline double torque(const BodyMotion& motion, const BodyForce& force) {
   const Matrix2 &h = motion.h, &q = force.moment;
   return (1 + h.xx) * q.yx + h.xy * q.yy - h.yx * q.xx - (1 + h.yy) * q.xy;
+}
+
+/// Along the cosine and the sine of the rotation of the polar decomposition of I + H.
+inline Vec2 turn_of(const Matrix2& h) {
+  return {2 + h.xx + h.yy, h.yx - h.xy};
 }
 
 /// R − I, R the rotation of the polar decomposition of I + H.

@@ -3,6 +3,7 @@
 #include "simulation/velocity_update.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,7 +29,7 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_co
     : kernels_(kernels::block_kernels(level)),
       workers_(workers),
       moving_(model.moving_bodies),
-      left_to_others_(moving_),
+      left_to_others_(moving_.begin(), moving_.end()),
       in_contact_(in_contact) {
   blocks_.reserve(model.bodies.size());
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
@@ -86,7 +87,7 @@ void Blocks::over_chunks(const Each& each) {
 void Blocks::set_supports(std::span<const Support> supports) {
   for (std::size_t i = 0; i < blocks_.size(); ++i)
     blocks_[i].free = blocks_[i].mass > 0 && !support_of(supports, i).any();
-  left_to_others_.clear();
+  left_to_others_ = {};  // mostly few; all of them were there
   for (const std::uint32_t body : moving_) {
     if (!blocks_[body].free) left_to_others_.push_back(body);
   }
@@ -141,7 +142,18 @@ MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
   return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy)};
 }
 
-void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, BodyMotion* middle,
+/// Bodies [begin, end) of a chunk; of their motion at t_n the velocity is kept.
+void Blocks::accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
+                                 MotionState& motion, BodyVelocity* middle, kernels::BlockSums& sums) const {
+  std::array<BodyMotion, chunk> at_step;
+  kernels_.accelerate(blocks_.data() + begin, motion.forces.data() + begin, update,
+                      motion.bodies.data() + begin, at_step.data(), 0, end - begin, sums);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (blocks_[i].free) middle[i] = {at_step[i - begin].velocity, at_step[i - begin].rate};
+  }
+}
+
+void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
                         AccelerationWork& work) {
   const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const double half_damping = conditions.damping * dt / 2;
@@ -155,9 +167,13 @@ void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, B
                                     conditions.damping > 0};
   over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::BlockSums here;
-    for (const auto [begin, end] : stretches)
-      kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), middle, begin,
-                          end, here);
+    for (const auto [begin, end] : stretches) {
+      if (middle != nullptr)
+        accelerate_and_keep(begin, end, update, motion, middle, here);
+      else
+        kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), nullptr,
+                            begin, end, here);
+    }
     sums_[number] = here;
   });
   for (const kernels::BlockSums& part : sums_) {

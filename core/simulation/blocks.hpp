@@ -25,7 +25,7 @@ class Blocks {
   /// Boundaries of all bodies follow (Eq. 11); returns how fast they are.
   MotionState::Speeds follow(const Model& model, MotionState& motion);
   /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
-  void accelerate(const StepConditions& conditions, MotionState& motion, BodyMotion* middle,
+  void accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
                   AccelerationWork& work);
   /// Calls each(body, work) for the free ones with scaled strain that are awake, on all threads, and adds to
   /// `work` in their order.
@@ -40,6 +40,8 @@ class Blocks {
     std::size_t begin, end;
   };
   void find_stretches();
+  void accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
+                           MotionState& motion, BodyVelocity* middle, kernels::BlockSums& sums) const;
   /// Calls `each` with the index of an entry of chunks_ and its stretches, in their order.
   template <class Each>
   void over_chunks(const Each& each);
@@ -49,7 +51,7 @@ class Blocks {
   std::vector<kernels::Block> blocks_;
   std::vector<kernels::Block> awake_;  ///< blocks_ as they are awake; empty while all are
   std::vector<std::uint32_t> asleep_;
-  std::vector<std::uint32_t> moving_;              ///< bodies that are not fixed
+  std::span<const std::uint32_t> moving_;          ///< bodies that are not fixed
   std::vector<std::uint32_t> others_;              ///< moving bodies whose boundary the kernels do not know
   std::vector<std::uint32_t> left_to_others_;      ///< all, before supports are told
   std::vector<std::uint32_t> with_scaled_strain_;  ///< see StrainMass

@@ -105,10 +105,10 @@ double kinetic_at_step(const Body& body, double density, const StepConditions& c
   return kinetic_energy(body, density, side, mirrored(at_step, side));
 }
 
-/// A body that moves as a whole, with supports or scaled strain, which the kernels do not know. `middle` gets
-/// its velocity at t_n.
+/// A body that moves as a whole, with supports or scaled strain, which the kernels do not know. `at_step`
+/// gets its velocity at t_n.
 void accelerate_whole(const Body& body, const BodyForce& force, const Support& support,
-                      const StepConditions& conditions, Update update, BodyMotion& now, BodyMotion& middle,
+                      const StepConditions& conditions, Update update, BodyMotion& now, BodyVelocity& at_step,
                       AccelerationWork& work) {
   const double density = body.mass / body.moments.area;
   const bool scaled = body.strain_mass_scale != 1;
@@ -118,9 +118,10 @@ void accelerate_whole(const Body& body, const BodyForce& force, const Support& s
   const BodyMotion before = now;
   accelerate_freely(body, force, conditions, update, now);
   impose_supports(body, density, support, conditions, update, before, now, work);
-  middle = velocity_at_step(before, now, conditions);
+  BodyMotion middle = velocity_at_step(before, now, conditions);
   work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
   if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
+  at_step = {middle.velocity, middle.rate};
   work.external_work += body.mass * gravity_work(conditions, before.velocity);
   if (conditions.damping > 0) {
     const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);

@@ -28,8 +28,8 @@ struct StepConditions {
 
 /// Velocities at t_n.
 struct VelocitiesAtStep {
-  std::vector<BodyMotion> bodies;  ///< with the displacements at t_n
-  std::vector<Vec2> patches;       ///< [patch] m/s
+  std::vector<BodyVelocity> bodies;
+  std::vector<Vec2> patches;  ///< [patch] m/s
 };
 
 class Blocks;

@@ -91,7 +91,7 @@ bool Simulation::advance(const Pause& pause) {
       s.start = s.motion.bodies;
       s.start_displacement = s.motion.patch_displacement;
     }
-    for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = s.motion.bodies[i].h;
+    for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = turn_of(s.motion.bodies[i].h);
     s.begin(output_time(1));
     s.warn_of_large_step();
     s.warn_of_initial_overlap();

@@ -192,7 +192,7 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     now.velocity = {};
     now.rate = {};
     now.spin = 0;
-    parts.at_time.bodies[b] = now;
+    parts.at_time.bodies[b] = {};
     for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c)
       parts.motion.corners[c].vx = parts.motion.corners[c].vy = 0;
   }

@@ -43,7 +43,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       relaxation(model),
       votes(scene, stage, model, contacts),
       critical(votes.anyhow()),
-      at_time{std::vector<BodyMotion>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
+      at_time{std::vector<BodyVelocity>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
       start(scene.settle ? model.bodies.size() : 0),
       start_displacement(scene.settle ? model.patch_star.size() : 0),
       rotation(model.bodies.size(), 0.0),
@@ -57,6 +57,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
   summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
   blocks.set_supports(stage.supports);
+  model.cut = {};  // corners have it
 }
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
@@ -405,11 +406,9 @@ void Simulation::State::bring_rotation_up_to_date() {
   turned = 0;
   for (const std::uint32_t i : model.moving_bodies) {
     if (model.covered(i)) motion.average(model, i);
-    const Matrix2 &now = motion.bodies[i].h, &last = last_turn[i];
     // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.
-    const double c = 2 + now.xx + now.yy, s = now.yx - now.xy;
-    const double c0 = 2 + last.xx + last.yy, s0 = last.yx - last.xy;
-    rotation[i] += std::atan2(s * c0 - c * s0, c * c0 + s * s0);
+    const Vec2 now = turn_of(motion.bodies[i].h), last = last_turn[i];
+    rotation[i] += std::atan2(now.y * last.x - now.x * last.y, now.x * last.x + now.y * last.y);
     last_turn[i] = now;
   }
 }

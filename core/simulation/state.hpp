@@ -71,7 +71,7 @@ struct Simulation::State {
   Vec2 last_gravity;                ///< m/s², at t_{n−1}
   double unbalanced_share = 0;      ///< unbalanced over applied force, while settling
   std::vector<double> rotation;     ///< rad since t = 0, followed through full turns
-  std::vector<Matrix2> last_turn;   ///< where `rotation` was brought up to date
+  std::vector<Vec2> last_turn;      ///< turn_of() the bodies when `rotation` was brought up to date
   double turned = 0;                ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;

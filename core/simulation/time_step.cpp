@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace talus {
 namespace {
 
+constexpr std::size_t most_compared = 64;    ///< bodies that vote differently, to which others are compared
+constexpr double rounded = 1 + 1e-9;         ///< by how much rounding may make a step longer, and more
 constexpr double most_contacts_on_side = 3;  ///< of a body of many elements, that act on one side at once
 
 /// The stiffest springs a side can meet on any other body, lumped at its ends.
@@ -168,48 +172,98 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
                    const ContactStage& contacts) {
   const Crowd crowd(model, scene.surfaces.size());
-  ballots_.reserve(model.moving_bodies.size());
-  std::vector<std::size_t> different;
+  // Bodies that vote differently, as far as they are compared.
+  struct Different {
+    std::uint32_t body;
+    Ballot ballot;
+    double spring_lambda;                 ///< 1/s², of springs alone
+    std::optional<std::uint32_t> number;  ///< in ballots_
+  };
+  std::vector<Different> different;
+  double longest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
-    const auto alike = std::find_if(different.begin(), different.end(), [&](std::size_t ballot) {
-      return votes_alike(scene, settings, model, i, ballots_[ballot].body);
+    auto alike = std::find_if(different.begin(), different.end(), [&](const Different& other) {
+      return votes_alike(scene, settings, model, i, other.body);
     });
-    if (alike != different.end()) {
-      ballots_.push_back(ballots_[*alike]);
-      ballots_.back().body = i;
-      continue;
+    Different here{i, {}, 0, {}};
+    if (alike == different.end()) {
+      const Meetings met = crowd.met_by(i);
+      const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, i);
+      const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
+      const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs, factor)
+                                             : vote_as_a_whole(scene, model, i, springs, factor);
+      const bool supported = std::any_of(springs.begin(), springs.end(),
+                                         [](const SideSprings& side) { return side.support > 0; });
+      const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
+      here.ballot = {contacts_alone ? vote.elastic_lambda : vote.lambda,
+                     vote.lambda,
+                     vote.gamma,
+                     factor,
+                     model.bodies[i].contact_mass,
+                     vote.elastic_lambda > 0.5 * vote.lambda};
+      here.spring_lambda = vote.spring_lambda;
+      if (different.size() < most_compared) {
+        different.push_back(here);
+        alike = different.end() - 1;
+      }
     }
-    if (different.size() < 64) different.push_back(ballots_.size());
-    const Meetings met = crowd.met_by(i);
-    const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, i);
-    const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
-    const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs, factor)
-                                           : vote_as_a_whole(scene, model, i, springs, factor);
-    const bool supported =
-        std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
-    const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
-    ballots_.push_back({contacts_alone ? vote.elastic_lambda : vote.lambda, vote.lambda, vote.spring_lambda,
-                        vote.gamma, factor, model.bodies[i].contact_mass, i,
-                        vote.elastic_lambda > 0.5 * vote.lambda});
+    Different& known = alike == different.end() ? here : *alike;
+    const Ballot& ballot = known.ballot;
+    const double bounce = stable_step(known.spring_lambda, 0);
+    if (bounce < spring_dt_) {
+      spring_dt_ = bounce;
+      spring_body_ = i;
+    }
+    const double alone = step_of(ballot, share_of(ballot, std::numeric_limits<double>::infinity()));
+    longest = std::min(longest, std::max(alone, step_of(ballot, 1)));
+    if (std::min(alone, step_of(ballot, 1)) > rounded * longest) continue;
+    if (!known.number) {
+      known.number = static_cast<std::uint32_t>(ballots_.size());
+      ballots_.push_back(ballot);
+    }
+    voters_.push_back({i, *known.number});
   }
+  drop_beyond(rounded * longest);
+}
+
+/// Who never has a step so short leaves, and so do ballots of nobody else.
+void StepVote::drop_beyond(double longest) {
+  const auto beyond = [&](const Ballot& ballot) {
+    const double alone = step_of(ballot, share_of(ballot, std::numeric_limits<double>::infinity()));
+    return std::min(alone, step_of(ballot, 1)) > longest;
+  };
+  std::vector<std::uint32_t> number(ballots_.size());
+  std::vector<Ballot> kept;
+  for (std::size_t i = 0; i < ballots_.size(); ++i) {
+    number[i] = static_cast<std::uint32_t>(kept.size());
+    if (!beyond(ballots_[i])) kept.push_back(ballots_[i]);
+  }
+  std::erase_if(voters_, [&](const Voter& voter) { return beyond(ballots_[voter.ballot]); });
+  for (Voter& voter : voters_) voter.ballot = number[voter.ballot];
+  ballots_ = std::move(kept);
+  ballots_.shrink_to_fit();
+  voters_.shrink_to_fit();
+}
+
+double StepVote::step_of(const Ballot& ballot, double share) {
+  return stable_step(ballot.lambda_alone + share * (ballot.lambda - ballot.lambda_alone), ballot.gamma);
+}
+
+/// Of the springs, where a body meets none lighter.
+double StepVote::share_of(const Ballot& ballot, double lightest) {
+  return std::min(1.0, (1 + std::sqrt(ballot.mass / lightest)) / ballot.factor);
 }
 
 template <class Share>
 CriticalStep StepVote::count(const Share& share) const {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  CriticalStep smallest{none, none, 0, 0, false};
-  for (const Ballot& ballot : ballots_) {
-    const double bounce = stable_step(ballot.spring_lambda, 0);
-    if (bounce < smallest.spring_dt) {
-      smallest.spring_dt = bounce;
-      smallest.spring_body = ballot.body;
-    }
-    const double lambda = ballot.lambda_alone + share(ballot) * (ballot.lambda - ballot.lambda_alone);
-    const double dt = stable_step(lambda, ballot.gamma);
+  CriticalStep smallest{std::numeric_limits<double>::infinity(), spring_dt_, 0, spring_body_, false};
+  for (const Voter& voter : voters_) {
+    const Ballot& ballot = ballots_[voter.ballot];
+    const double dt = step_of(ballot, share(ballot, voter.body));
     if (dt < smallest.dt) {
       smallest.dt = dt;
-      smallest.body = ballot.body;
+      smallest.body = voter.body;
       smallest.strained = ballot.strained;
     }
   }
@@ -217,13 +271,11 @@ CriticalStep StepVote::count(const Share& share) const {
 }
 
 CriticalStep StepVote::anyhow() const {
-  return count([](const Ballot&) { return 1.0; });
+  return count([](const Ballot&, std::uint32_t) { return 1.0; });
 }
 
 CriticalStep StepVote::among(std::span<const double> lightest) const {
-  return count([&](const Ballot& ballot) {
-    return std::min(1.0, (1 + std::sqrt(ballot.mass / lightest[ballot.body])) / ballot.factor);
-  });
+  return count([&](const Ballot& ballot, std::uint32_t body) { return share_of(ballot, lightest[body]); });
 }
 
 std::string limiter_of(const Scene& scene, const CriticalStep& step) {

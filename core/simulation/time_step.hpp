@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,16 +50,24 @@ class StepVote {
   /// stays below the chord.
   struct Ballot {
     double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
-    double spring_lambda;         ///< 1/s², of springs alone
     double gamma;                 ///< 1/s
     double factor, mass;
-    std::uint32_t body;
-    bool strained;
+    bool strained;  ///< see CriticalStep
   };
+  static double share_of(const Ballot& ballot, double lightest);
+  static double step_of(const Ballot& ballot, double share);
   template <class Share>
   CriticalStep count(const Share& share) const;
+  void drop_beyond(double longest);
 
-  std::vector<Ballot> ballots_;
+  std::vector<Ballot> ballots_;  ///< one for all that vote alike
+  /// Bodies that may limit the step, whoever meets whom.
+  struct Voter {
+    std::uint32_t body, ballot;
+  };
+  std::vector<Voter> voters_;
+  double spring_dt_ = std::numeric_limits<double>::infinity();  ///< s, the shortest
+  std::uint32_t spring_body_ = 0;
 };
 
 /// The automatic step, s: min(safety · spring_dt, max(0.8, safety) · dt); safety · dt without springs.

@@ -144,7 +144,7 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
       disturb(model, one);
       disturb(model, two);
       Deformation first(scene, model, alone()), second(scene, model, alone());
-      VelocitiesAtStep at_one{std::vector<BodyMotion>(1), std::vector<Vec2>(model.patch_star.size())};
+      VelocitiesAtStep at_one{std::vector<BodyVelocity>(1), std::vector<Vec2>(model.patch_star.size())};
       VelocitiesAtStep at_two = at_one;
       one.own_behind = two.own_behind = 1e-6;
       one.clear_forces(model);
