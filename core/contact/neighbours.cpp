@@ -72,6 +72,29 @@ bool NeighbourSearch::may_meet_itself(const Model& model, std::uint32_t p, std::
   return !hang_together(model, a, b.side) && !hang_together(model, b, a.side);
 }
 
+/// Whether all of `p` is more than `skin` outside of a side of the large piece. Only where one of both is
+/// fixed: of moving bodies those near them count for the time step, however far they are from a side.
+bool NeighbourSearch::outside(const Model& model, const MotionState& motion, std::uint32_t large,
+                              std::uint32_t p, double skin) {
+  const std::uint32_t body = model.piece_body[large], other = model.piece_body[p];
+  if ((model.moves(body) && model.moves(other)) || model.is_strip[large] != 0) return false;
+  const Vec2 from = model.bodies[body].centre, to = model.bodies[other].centre;
+  const double offset_x = to.x - from.x, offset_y = to.y - from.y;
+  const std::uint32_t begin = model.piece_start[large], end = model.piece_start[large + 1];
+  for (std::uint32_t side = begin; side < end; ++side) {
+    const BoundaryCorner &a = motion.corners[side], &b = motion.corners[side + 1 == end ? begin : side + 1];
+    const double along_x = b.x - a.x, along_y = b.y - a.y;
+    const double limit = skin * std::sqrt(along_x * along_x + along_y * along_y);
+    bool beyond = limit > 0;
+    for (std::uint32_t c = model.piece_start[p]; beyond && c < model.piece_start[p + 1]; ++c) {
+      const double x = motion.corners[c].x + offset_x - a.x, y = motion.corners[c].y + offset_y - a.y;
+      beyond = along_y * x - along_x * y > limit;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
 void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,
                             std::vector<Candidate>& candidates) const {
   const Box &a = boxes_[p], &b = boxes_[q];
@@ -97,7 +120,8 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
   for (std::size_t i = 0; i < large_.size(); ++i) {
     for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
       const bool both_large = std::binary_search(large_.begin(), large_.end(), p);
-      if (!both_large || p > large_[i]) offer(model, large_[i], p, candidates);
+      if (both_large && p <= large_[i]) continue;
+      if (!outside(model, motion, large_[i], p, skin)) offer(model, large_[i], p, candidates);
     }
   }
   std::sort(candidates.begin(), candidates.end());

@@ -21,7 +21,9 @@ class NeighbourSearch {
  public:
   explicit NeighbourSearch(const Model& model);
 
-  /// All candidates with boxes grown by `skin`/2 each, sorted. The vector is reused.
+  /// All candidates with boxes grown by `skin`/2 each, sorted. Left out is what lies more than `skin` outside
+  /// of a side of a large piece, where one of both is fixed: boxes say little of long slopes. The vector is
+  /// reused.
   void find(const Model& model, const MotionState& motion, double skin, std::vector<Candidate>& candidates);
 
  private:
@@ -37,6 +39,8 @@ class NeighbourSearch {
   void measure_boxes(const Model& model, const MotionState& motion, double skin);
   void fill_grid();
   static bool may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q);
+  static bool outside(const Model& model, const MotionState& motion, std::uint32_t large, std::uint32_t p,
+                      double skin);
   void offer(const Model& model, std::uint32_t p, std::uint32_t q, std::vector<Candidate>& candidates) const;
 
   double cell_ = 1;  ///< m, edge of a grid cell

@@ -34,6 +34,7 @@ struct Crowd {
       model.surface.push_back(0);
       model.cut.push_back(0);
     }
+    model.is_strip.push_back(0);
     model.piece_body.push_back(static_cast<std::uint32_t>(model.bodies.size() - 1));
     model.piece_start.push_back(static_cast<std::uint32_t>(model.reference_x.size()));
   }
@@ -62,7 +63,33 @@ Crowd crowd(unsigned seed, Vec2 origin, int bodies) {
   return result;
 }
 
-/// Every pair of pieces, box against box.
+/// Whether a piece lies outside of a side of another, far longer than common ones are, by more than the skin.
+bool beyond_a_long_side(const Model& model, const MotionState& motion, std::uint32_t large,
+                        std::uint32_t piece, double skin) {
+  const auto at = [&](std::uint32_t of_piece, std::uint32_t corner) {
+    const Vec2 centre = model.bodies[model.piece_body[of_piece]].centre;
+    return Vec2{centre.x + motion.corners[corner].x, centre.y + motion.corners[corner].y};
+  };
+  const std::uint32_t begin = model.piece_start[large], count = model.piece_start[large + 1] - begin;
+  double longest = 0;
+  bool beyond = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec2 a = at(large, begin + i), b = at(large, begin + (i + 1) % count);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const Vec2 outwards{(b.y - a.y) / length, (a.x - b.x) / length};
+    double nearest = INFINITY;
+    for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c) {
+      const Vec2 p = at(piece, c);
+      nearest = std::min(nearest, (p.x - a.x) * outwards.x + (p.y - a.y) * outwards.y);
+    }
+    longest = std::max(longest, length);
+    beyond = beyond || nearest > skin;
+  }
+  return longest > 20 && beyond;
+}
+
+/// Every pair of pieces, box against box; of a long side of a fixed body, or of one beside a fixed one, those
+/// that it reaches.
 std::vector<Candidate> brute_force(const Model& model, const MotionState& motion, double skin) {
   const auto gap = [&](std::uint32_t p, std::uint32_t q, bool along_x) {
     const auto range = [&](std::uint32_t piece) {
@@ -85,7 +112,12 @@ std::vector<Candidate> brute_force(const Model& model, const MotionState& motion
     for (std::uint32_t q = 0; q < model.piece_body.size(); ++q) {
       const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
       if (body_p >= body_q || (!model.moves(body_p) && !model.moves(body_q))) continue;
-      if (gap(p, q, true) <= skin && gap(p, q, false) <= skin) result.push_back({body_p, body_q, p, q});
+      if (gap(p, q, true) > skin || gap(p, q, false) > skin) continue;
+      const bool one_fixed = !model.moves(body_p) || !model.moves(body_q);
+      if (one_fixed &&
+          (beyond_a_long_side(model, motion, p, q, skin) || beyond_a_long_side(model, motion, q, p, skin)))
+        continue;
+      result.push_back({body_p, body_q, p, q});
     }
   }
   std::sort(result.begin(), result.end());
@@ -144,6 +176,28 @@ TEST_CASE("very large bodies are neighbours of all they reach", "[contact][neigh
     bodies.add_piece({0, 0}, 0.5, 300, 4);
     check_against_brute_force(bodies.model, 0.1);
   }
+}
+
+TEST_CASE("a long slope that is fixed has those neighbours that it reaches, not all in its box",
+          "[contact][neighbours]") {
+  const auto stones_near = [](Kinematics slope) {
+    Crowd bodies;
+    bodies.add_body({0, 0}, slope);
+    bodies.add_piece({0, 0}, 50, 1, 4);
+    for (std::uint32_t c = 0; c < 4; ++c) bodies.model.reference_y[c] += bodies.model.reference_x[c] / 2;
+    for (int i = 0; i < 20; ++i) {  // columns on the slope, of stones 1 m high with 0.05 m between
+      for (int k = 0; k < 5; ++k) {
+        const double x = 2.0 * i - 20;
+        bodies.add_body({x, x / 2 + 1 + 0.25 + 0.55 + 1.05 * k}, Kinematics::rigid);
+        bodies.add_piece({0, 0}, 0.5, 0.5, 4);
+      }
+    }
+    std::vector<Candidate> found;
+    NeighbourSearch(bodies.model).find(bodies.model, at_start(bodies.model), 0.1, found);
+    return std::count_if(found.begin(), found.end(), [](const Candidate& near) { return near.body_a == 0; });
+  };
+  CHECK(stones_near(Kinematics::fixed) == 20);
+  CHECK(stones_near(Kinematics::affine) == 100);
 }
 
 TEST_CASE("far from the origin the neighbours are the same", "[contact][neighbours]") {
