@@ -22,7 +22,9 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   travelled_ += travelled;
   const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
   if (!due && !every_step) {
-    if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_)) share_anew(model);
+    if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
+        worth_dividing_anew(pairs_, workers_.threads(), batch_begin_, other_batches_))
+      share_anew(model);
     return false;
   }
   const double rounded = rounding * model.mean_width;

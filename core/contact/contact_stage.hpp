@@ -182,6 +182,7 @@ class ContactStage {
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
   std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
+  std::vector<std::uint32_t> other_batches_;   ///< those of another division, while the two are compared
   std::uint64_t steps_shared_ = 0;             ///< since the last search
   WaveLoads loads_;
   LawFault fault_;

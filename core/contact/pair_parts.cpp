@@ -9,11 +9,45 @@ namespace {
 
 /// What a law has to do for a pair, roughly: of those apart it mostly knows without a look.
 std::uint64_t work_of(const BodyPair& pair) {
-  const std::uint64_t of_pieces = pair.contact_count == 0 ? 1 : pair.master_share == 0.5 ? 20 : 10;
+  const std::uint64_t of_pieces = pair.contact_count == 0 ? 1 : pair.master_share == 0.5 ? 12 : 10;
   return of_pieces * (pair.piece_pair_end - pair.piece_pair_start);
 }
 
+std::uint64_t work_of_all(std::span<const BodyPair> pairs) {
+  std::uint64_t all = 0;
+  for (const BodyPair& pair : pairs) all += work_of(pair);
+  return all;
+}
+
+/// What the thread that has most to do begins with, as a multiple of its share, in the most uneven wave.
+/// Within a wave a thread begins with as many batches as any other.
+double unevenness(std::span<const BodyPair> pairs, int threads, std::span<const std::uint32_t> batch_begin) {
+  const auto all_threads = static_cast<std::size_t>(threads);
+  double most_uneven = 1;
+  for (std::size_t batch = 0, end = 0; batch + 1 < batch_begin.size(); batch = end) {
+    const std::size_t wave = batch_begin[batch] / pairs_of_wave(threads);
+    while (end + 1 < batch_begin.size() && batch_begin[end] / pairs_of_wave(threads) == wave) ++end;
+    std::uint64_t all = 0, most = 0;
+    for (std::size_t i = 0; i < all_threads; ++i) {
+      const std::uint32_t first = batch_begin[batch + (end - batch) * i / all_threads],
+                          last = batch_begin[batch + (end - batch) * (i + 1) / all_threads];
+      const std::uint64_t work = work_of_all(pairs.subspan(first, last - first));
+      all += work;
+      most = std::max(most, work);
+    }
+    most_uneven = std::max(most_uneven, static_cast<double>(most * all_threads) / static_cast<double>(all));
+  }
+  return most_uneven;
+}
+
 }  // namespace
+
+bool worth_dividing_anew(std::span<const BodyPair> pairs, int threads,
+                         std::span<const std::uint32_t> batch_begin, std::vector<std::uint32_t>& other) {
+  constexpr double worth = 1.05;
+  divide_into_batches(pairs, threads, other);
+  return unevenness(pairs, threads, batch_begin) > worth * unevenness(pairs, threads, other);
+}
 
 void divide_into_batches(std::span<const BodyPair> pairs, int threads,
                          std::vector<std::uint32_t>& batch_begin) {
@@ -26,8 +60,8 @@ void divide_into_batches(std::span<const BodyPair> pairs, int threads,
     const std::span<const BodyPair> wave =
         pairs.subspan(first, std::min(pairs_of_wave(threads), pairs.size() - first));
     const std::size_t batches = shares * ((wave.size() + large - 1) / large);
-    std::uint64_t all = 0, before = 0;
-    for (const BodyPair& pair : wave) all += work_of(pair);
+    const std::uint64_t all = work_of_all(wave);
+    std::uint64_t before = 0;
     for (std::size_t i = 0, batch = 1; i < wave.size(); ++i) {
       if (i % pair_chunk == 0 && before * batches >= all * batch) {
         append_to(batch_begin, static_cast<std::uint32_t>(first + i));

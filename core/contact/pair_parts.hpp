@@ -28,4 +28,10 @@ constexpr std::size_t pairs_of_wave(int threads) {
 void divide_into_batches(std::span<const BodyPair> pairs, int threads,
                          std::vector<std::uint32_t>& batch_begin);
 
+/// Whether to divide them as their contacts tell now would take a twentieth off what the busiest thread has
+/// to do: to move pairs from one batch to another costs as much as a few steps. That division goes to
+/// `other`.
+bool worth_dividing_anew(std::span<const BodyPair> pairs, int threads,
+                         std::span<const std::uint32_t> batch_begin, std::vector<std::uint32_t>& other);
+
 }  // namespace talus

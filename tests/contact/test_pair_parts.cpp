@@ -66,3 +66,23 @@ TEST_CASE("one thread has as few batches as their size allows, others share the 
   CHECK(half_apart[4] - half_apart[3] < 640);
   CHECK(half_apart[4] - half_apart[3] > 400);
 }
+
+TEST_CASE("pairs are divided anew when contacts are elsewhere, and not before", "[contact][batches]") {
+  std::vector<std::uint32_t> other;
+  for (const int threads : {2, 3}) {
+    for (const std::size_t count : {std::size_t{2048}, pairs_of_wave(threads) + 4096}) {
+      CAPTURE(threads, count);
+      const std::vector<BodyPair> in_a_half = pairs_touching_from(count / 2, count);
+      const std::vector<std::uint32_t> begin = batches(in_a_half, threads);
+      CHECK_FALSE(worth_dividing_anew(in_a_half, threads, begin, other));
+      for (const std::size_t first : {std::size_t{0}, count - count / 8}) {
+        const std::vector<BodyPair> elsewhere = pairs_touching_from(first, count);
+        CHECK(worth_dividing_anew(elsewhere, threads, begin, other));
+        CHECK(other == batches(elsewhere, threads));
+      }
+    }
+  }
+  const std::vector<BodyPair> few = pairs_touching_from(0, 4 * pair_chunk);
+  CHECK_FALSE(worth_dividing_anew(few, 2, batches(few, 2), other));
+  CHECK_FALSE(worth_dividing_anew({}, 2, batches({}, 2), other));
+}
