@@ -126,6 +126,8 @@ void ContactStage::lay_out_loads(const Model& model) {
   loads_.lay_out(model, pairs_, batch_begin_, piece_pairs_);
   if (keeps_stored_) stored_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
+  // Between searches nobody asks for memory: batches are whole chunks.
+  if (workers_.threads() > 1) make_room_in(other_batches_, chunk_totals_.size() + 1);
   describe_plain_pairs(model);
 }
 

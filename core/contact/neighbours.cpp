@@ -72,6 +72,11 @@ bool NeighbourSearch::may_meet_itself(const Model& model, std::uint32_t p, std::
   return !hang_together(model, a, b.side) && !hang_together(model, b, a.side);
 }
 
+bool NeighbourSearch::meet(std::uint32_t p, std::uint32_t q) const {
+  const Box &a = boxes_[p], &b = boxes_[q];
+  return !(a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y);
+}
+
 /// Whether all of `p` is more than `skin` outside of a side of the large piece. Only where one of both is
 /// fixed: of moving bodies those near them count for the time step, however far they are from a side.
 bool NeighbourSearch::outside(const Model& model, const MotionState& motion, std::uint32_t large,
@@ -96,9 +101,7 @@ bool NeighbourSearch::outside(const Model& model, const MotionState& motion, std
 }
 
 void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,
-                            std::vector<Candidate>& candidates) const {
-  const Box &a = boxes_[p], &b = boxes_[q];
-  if (a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y) return;
+                            std::vector<Candidate>& candidates) {
   const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
   if (!model.moves(body_p) && !model.moves(body_q)) return;
   if (body_p == body_q && !may_meet_itself(model, p, q)) return;
@@ -114,13 +117,13 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     for (std::size_t j = i + 1; j < grid_.size(); ++j) {
       if (grid_[j].cell_x != grid_[i].cell_x || grid_[j].cell_y != grid_[i].cell_y) break;
-      offer(model, grid_[i].piece, grid_[j].piece, candidates);
+      if (meet(grid_[i].piece, grid_[j].piece)) offer(model, grid_[i].piece, grid_[j].piece, candidates);
     }
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {
     for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
       const bool both_large = std::binary_search(large_.begin(), large_.end(), p);
-      if (both_large && p <= large_[i]) continue;
+      if ((both_large && p <= large_[i]) || !meet(large_[i], p)) continue;
       if (!outside(model, motion, large_[i], p, skin)) offer(model, large_[i], p, candidates);
     }
   }

@@ -39,9 +39,10 @@ class NeighbourSearch {
   void measure_boxes(const Model& model, const MotionState& motion, double skin);
   void fill_grid();
   static bool may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q);
+  bool meet(std::uint32_t p, std::uint32_t q) const;  ///< their boxes
   static bool outside(const Model& model, const MotionState& motion, std::uint32_t large, std::uint32_t p,
                       double skin);
-  void offer(const Model& model, std::uint32_t p, std::uint32_t q, std::vector<Candidate>& candidates) const;
+  static void offer(const Model& model, std::uint32_t p, std::uint32_t q, std::vector<Candidate>& candidates);
 
   double cell_ = 1;  ///< m, edge of a grid cell
   Vec2 origin_;      ///< all centres are taken relative to this, so that far coordinates cost nothing

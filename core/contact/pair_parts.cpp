@@ -19,25 +19,24 @@ std::uint64_t work_of_all(std::span<const BodyPair> pairs) {
   return all;
 }
 
-/// What the thread that has most to do begins with, as a multiple of its share, in the most uneven wave.
-/// Within a wave a thread begins with as many batches as any other.
-double unevenness(std::span<const BodyPair> pairs, int threads, std::span<const std::uint32_t> batch_begin) {
+/// What the thread that has most to do begins with, wave after wave: within one a thread begins with as many
+/// batches as any other.
+std::uint64_t work_of_busiest(std::span<const BodyPair> pairs, int threads,
+                              std::span<const std::uint32_t> batch_begin) {
   const auto all_threads = static_cast<std::size_t>(threads);
-  double most_uneven = 1;
+  std::uint64_t work = 0;
   for (std::size_t batch = 0, end = 0; batch + 1 < batch_begin.size(); batch = end) {
     const std::size_t wave = batch_begin[batch] / pairs_of_wave(threads);
     while (end + 1 < batch_begin.size() && batch_begin[end] / pairs_of_wave(threads) == wave) ++end;
-    std::uint64_t all = 0, most = 0;
+    std::uint64_t most = 0;
     for (std::size_t i = 0; i < all_threads; ++i) {
       const std::uint32_t first = batch_begin[batch + (end - batch) * i / all_threads],
                           last = batch_begin[batch + (end - batch) * (i + 1) / all_threads];
-      const std::uint64_t work = work_of_all(pairs.subspan(first, last - first));
-      all += work;
-      most = std::max(most, work);
+      most = std::max(most, work_of_all(pairs.subspan(first, last - first)));
     }
-    most_uneven = std::max(most_uneven, static_cast<double>(most * all_threads) / static_cast<double>(all));
+    work += most;
   }
-  return most_uneven;
+  return work;
 }
 
 }  // namespace
@@ -46,7 +45,8 @@ bool worth_dividing_anew(std::span<const BodyPair> pairs, int threads,
                          std::span<const std::uint32_t> batch_begin, std::vector<std::uint32_t>& other) {
   constexpr double worth = 1.05;
   divide_into_batches(pairs, threads, other);
-  return unevenness(pairs, threads, batch_begin) > worth * unevenness(pairs, threads, other);
+  return static_cast<double>(work_of_busiest(pairs, threads, batch_begin)) >
+         worth * static_cast<double>(work_of_busiest(pairs, threads, other));
 }
 
 void divide_into_batches(std::span<const BodyPair> pairs, int threads,

@@ -296,43 +296,52 @@ double product(const Block& b, const BodyMotion& p, const BodyMotion& q) {
           r.yy * (b.moment_xy * s.yx + b.moment_yy * s.yy));
 }
 
-/// Bodies in a step as long as the one before without damping: nothing but v₊ and ½ v₋ᵀ M v₊. Rates and
-/// moments are rows of four, xx, xy, yx, yy, and half a symmetric matrix serves both their halves.
-struct EvenSums {
-  Quad strain{};
-  Pair translation{}, momentum{};
-  double rotation = 0;
+/// The velocity update of bodies, one after the other, with the sums that each step needs. Rates and moments
+/// are rows of four, xx, xy, yx, yy, and half a symmetric matrix serves both their halves.
+class BlockVelocities {
+ public:
+  BlockVelocities(const BlockUpdate& update, const BlockSums& sums)
+      : keep_(update.keep),
+        gain_(update.gain),
+        even_(update.even_steps),
+        gravity_{update.gravity_x, update.gravity_y},
+        rotation_(sums.rotation) {
+    load(sums.momentum, momentum_);
+    load(sums.translation, translation_);
+    load(sums.strain, strain_);
+  }
 
-  void accelerate(const Block& block, const BodyForce& f, const BlockUpdate& update, const Pair& gravity,
-                  BodyMotion& now) {
+  /// v₊, and ½ v₋ᵀ M v₊ if the step is as long as the one before.
+  void accelerate(const Block& block, const BodyForce& f, BodyMotion& now) {
     Pair v, force;
     load(&now.velocity.x, v);
     load(&f.force.x, force);
-    const Pair next_v = update.keep * v + update.gain * (force / block.mass + gravity);
+    const Pair momentum = block.mass * v, next_v = keep_ * v + gain_ * (force / block.mass + gravity_);
+    momentum_ += momentum;
+    if (even_) translation_ += momentum * next_v;
     store(next_v, &now.velocity.x);
-    const Pair momentum_here = block.mass * v;
-    momentum += momentum_here;
-    translation += momentum_here * next_v;
     if (block.rigid) {
-      const double spin = update.keep * now.spin + update.gain * torque(now, f) / block.inertia;
-      rotation += block.inertia * now.spin * spin;
+      const double spin = keep_ * now.spin + gain_ * torque(now, f) / block.inertia;
+      if (even_) rotation_ += block.inertia * now.spin * spin;
       now.spin = spin;
       return;
     }
-    Quad rate, q;
+    Quad rate, q, acceleration, moment;
     load(&now.rate.xx, rate);
     load(&f.moment.xx, q);
-    Quad acceleration, moment;
     times_symmetric(q, &block.inverse_xx, acceleration);
-    const Quad next_rate = update.keep * rate + update.gain * acceleration;
+    const Quad next_rate = keep_ * rate + gain_ * acceleration;
     store(next_rate, &now.rate.xx);
+    if (!even_) return;
     times_symmetric(next_rate, &block.moment_xx, moment);
-    strain += rate * moment;
+    strain_ += rate * moment;
   }
-  double kinetic() const {
-    return ((translation[0] + translation[1]) +
-            (rotation + ((strain[0] + strain[1]) + (strain[2] + strain[3])))) /
-           2;
+
+  void leave(BlockSums& sums) const {
+    store(momentum_, sums.momentum);
+    store(translation_, sums.translation);
+    store(strain_, sums.strain);
+    sums.rotation = rotation_;
   }
 
  private:
@@ -345,47 +354,36 @@ struct EvenSums {
         __builtin_shufflevector(rows, rows, 0, 0, 2, 2) * __builtin_shufflevector(first, first, 0, 1, 0, 1) +
         __builtin_shufflevector(rows, rows, 1, 1, 3, 3) * __builtin_shufflevector(second, second, 0, 1, 0, 1);
   }
+
+  double keep_, gain_;
+  bool even_;
+  Pair gravity_, momentum_, translation_;
+  Quad strain_;
+  double rotation_;
 };
 
 void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate& update, BodyMotion* motion,
                 BodyMotion* middle, std::size_t begin, std::size_t end, BlockSums& sums) {
-  const double keep = update.keep, gain = update.gain;
-  const bool even = update.even_steps && !update.damped && middle == nullptr;
-  const Pair gravity{update.gravity_x, update.gravity_y};
-  EvenSums even_sums;
+  BlockVelocities velocities(update, sums);
+  const bool no_more = update.even_steps && !update.damped && middle == nullptr;
   for (std::size_t b = begin; b < end; ++b) {
     const Block& block = blocks[b];
     if (!block.free) continue;
-    const BodyForce& f = forces[b];
     BodyMotion& now = motion[b];
-    if (even) {
-      even_sums.accelerate(block, f, update, gravity, now);
+    if (no_more) {
+      velocities.accelerate(block, forces[b], now);
       continue;
     }
     const BodyMotion before = now;
-    now.velocity.x = keep * before.velocity.x + gain * (f.force.x / block.mass + update.gravity_x);
-    now.velocity.y = keep * before.velocity.y + gain * (f.force.y / block.mass + update.gravity_y);
-    const Matrix2& q = f.moment;
-    if (block.rigid) {
-      now.spin = keep * before.spin + gain * torque(before, f) / block.inertia;
-    } else {
-      now.rate.xx = keep * before.rate.xx + gain * (q.xx * block.inverse_xx + q.xy * block.inverse_xy);
-      now.rate.xy = keep * before.rate.xy + gain * (q.xx * block.inverse_xy + q.xy * block.inverse_yy);
-      now.rate.yx = keep * before.rate.yx + gain * (q.yx * block.inverse_xx + q.yy * block.inverse_xy);
-      now.rate.yy = keep * before.rate.yy + gain * (q.yx * block.inverse_xy + q.yy * block.inverse_yy);
-    }
-    sums.momentum_x += block.mass * before.velocity.x;
-    sums.momentum_y += block.mass * before.velocity.y;
-    const auto between = [&](double p, double q_) { return p + update.share_of_after * (q_ - p); };
+    velocities.accelerate(block, forces[b], now);
+    const auto between = [&](double p, double q) { return p + update.share_of_after * (q - p); };
     BodyMotion at = now;
     at.velocity = {between(before.velocity.x, now.velocity.x), between(before.velocity.y, now.velocity.y)};
     at.spin = between(before.spin, now.spin);
     at.rate = {between(before.rate.xx, now.rate.xx), between(before.rate.xy, now.rate.xy),
                between(before.rate.yx, now.rate.yx), between(before.rate.yy, now.rate.yy)};
     if (update.damped) sums.damped += product(block, at, at);
-    if (update.even_steps) {
-      sums.kinetic += product(block, before, now) / 2;
-    } else {
+    if (!update.even_steps) {
       // The velocity mirrored about t_n: that of uneven steps would miss energy of first order.
       const BodyMotion& side = update.from_behind ? before : now;
       const auto mirror = [](double centre, double value) { return 2 * centre - value; };
@@ -402,9 +400,7 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     }
     middle[b] = at;
   }
-  sums.kinetic += even_sums.kinetic();
-  sums.momentum_x += even_sums.momentum[0];
-  sums.momentum_y += even_sums.momentum[1];
+  velocities.leave(sums);
 }
 
 }  // namespace

@@ -63,11 +63,20 @@ struct BlockUpdate {
   bool damped;
 };
 
-/// Sums over bodies.
+/// Sums over bodies, one after the other: however a chunk of them is divided into calls, and whether
+/// velocities at t_n are kept, the bits are the same.
 struct BlockSums {
-  double kinetic = 0;                     ///< J/m
-  double momentum_x = 0, momentum_y = 0;  ///< kg/s, m v₋
-  double damped = 0;                      ///< J/m, twice the kinetic energy at t_n, where damped
+  double kinetic = 0;           ///< J/m, of uneven steps
+  double momentum[2] = {0, 0};  ///< kg/s, m v₋
+  double damped = 0;            ///< J/m, twice the kinetic energy at t_n, where damped
+  // Of even steps, J/m: twice the kinetic energy of translation x, y, of rates xx, xy, yx, yy and of spins.
+  double translation[2] = {0, 0}, strain[4] = {0, 0, 0, 0}, rotation = 0;
+
+  double all_kinetic() const {
+    return kinetic + ((translation[0] + translation[1]) +
+                      (rotation + ((strain[0] + strain[1]) + (strain[2] + strain[3])))) /
+                         2;
+  }
 };
 
 struct BlockKernels {

@@ -177,8 +177,8 @@ void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, B
     sums_[number] = here;
   });
   for (const kernels::BlockSums& part : sums_) {
-    work.kinetic += part.kinetic;
-    work.external_work += gravity_work(conditions, {part.momentum_x, part.momentum_y});
+    work.kinetic += part.all_kinetic();
+    work.external_work += gravity_work(conditions, {part.momentum[0], part.momentum[1]});
     work.damping_loss += conditions.damping * part.damped * conditions.dt_behind / 2;
     work.damping_loss_ahead += conditions.damping * part.damped * conditions.dt_ahead / 2;
   }

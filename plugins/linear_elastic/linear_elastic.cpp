@@ -48,19 +48,23 @@ class SmallStrainPacks {
                                          elements::PlanePacks (&stress)[packs],
                                          simd::Pack (&energy)[packs]) const {
     using simd::Pack;
-    Pack trace[packs], skew[packs], x[packs], share[packs];
+    Pack trace[packs], skew[packs], x[packs], size[packs], share[packs];
     simd::Mask near[packs], all_near{};
     for (int i = 0; i < packs; ++i) {
       trace[i] = h[i].xx + h[i].yy;
       skew[i] = h[i].yx - h[i].xy;
       x[i] = trace[i] * (4.0 + trace[i]) + skew[i] * skew[i];  // 4 m² − 4, without the cancellation
+      size[i] = 4.0 + x[i];
       share[i] = one_less_inverse_root(x[i]);
       near[i] = simd::abs(x[i]) <= bound;
       all_near = i == 0 ? near[i] : all_near & near[i];
     }
     if (simd::any(!all_near)) [[unlikely]] {
-      for (int i = 0; i < packs; ++i)
-        share[i] = simd::select(near[i], share[i], 1.0 - 2.0 / simd::sqrt(4.0 + x[i]));
+      for (int i = 0; i < packs; ++i) {
+        const Pack both = 2.0 + trace[i], whole = both * both + skew[i] * skew[i];
+        size[i] = simd::select(near[i], size[i], whole);
+        share[i] = simd::select(near[i], share[i], 1.0 - 2.0 / simd::sqrt(whole));
+      }
     }
     for (int i = 0; i < packs; ++i) {
       const Pack along = h[i].xx - h[i].yy, across = h[i].yx + h[i].xy;
@@ -68,7 +72,7 @@ class SmallStrainPacks {
       const Pack c = swell * (2.0 + trace[i]), s = swell * skew[i];
       const Pack p = shear_ * along, q = shear_ * across;
       stress[i] = {c + p, q - s, q + s, c - p};
-      energy[i] = 0.5 * ((swell * share[i]) * (4.0 + x[i]) + (p * along + q * across));
+      energy[i] = 0.5 * ((swell * share[i]) * size[i] + (p * along + q * across));
     }
   }
 

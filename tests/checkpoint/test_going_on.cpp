@@ -103,6 +103,24 @@ constexpr const char* driven_stages = R"({"talus": 1, "gravity": [0, -10],
   "time": {"end": 0.05},
   "output": {"history": 0.01}})";
 
+/// What is fixed lies between what moves, so that sums over bodies are taken in several parts.
+constexpr const char* fixed_between = R"({"talus": 1, "gravity": [1, -10],
+  "materials": {"rock": {"density": 2300, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0.2}},
+  "cover": {"model": "block"},
+  "contact": {"model": "overlap_area"},
+  "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                  "normal_damping": 0.3, "tangential_damping": 0.3}],
+  "bodies": [
+    {"name": "a", "polygon": [[-4, 0.1], [-3.1, 0], [-3, 1], [-4, 1.2]], "material": "rock", "velocity": [0.3, -1]},
+    {"name": "shelf", "polygon": [[-1, -1], [1, -1], [1, 0], [-1, 0]], "material": "rock", "fixed": true},
+    {"name": "b", "polygon": [[-0.7, 0.001], [0.2, 0], [0.3, 1.1], [-0.6, 1]], "material": "rock"},
+    {"name": "c", "polygon": [[3, 0], [4.3, 0.2], [3.7, 1.3]], "material": "rock", "velocity": [-0.7, 0.1]},
+    {"name": "ledge", "polygon": [[5, -1], [6, -1], [6, 0], [5, 0]], "material": "rock", "fixed": true},
+    {"name": "d", "polygon": [[7, 0], [8.1, 0], [8, 0.7], [7, 0.9]], "material": "rock", "cover": {"model": "rigid"},
+     "velocity": [0.11, 0.7]}],
+  "time": {"end": 0.05, "dt": 1e-4},
+  "output": {"history": 0.01}})";
+
 }  // namespace
 
 TEST_CASE("A run goes on from any step with the same bits", "[checkpoint]") {
@@ -115,6 +133,7 @@ TEST_CASE("A run goes on from any step with the same bits", "[checkpoint]") {
 TEST_CASE("Materials, stages, settling and loads go on with the same bits", "[checkpoint]") {
   check_goes_on(from_text(lattice_with_memory), 31);
   check_goes_on(from_text(driven_stages), 31);
+  check_goes_on(from_text(fixed_between), 7);
 }
 
 TEST_CASE("Islands asleep go on with the same bits", "[checkpoint]") {

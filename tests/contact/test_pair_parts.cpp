@@ -70,7 +70,8 @@ TEST_CASE("one thread has as few batches as their size allows, others share the 
 TEST_CASE("pairs are divided anew when contacts are elsewhere, and not before", "[contact][batches]") {
   std::vector<std::uint32_t> other;
   for (const int threads : {2, 3}) {
-    for (const std::size_t count : {std::size_t{2048}, pairs_of_wave(threads) + 4096}) {
+    for (const std::size_t count : {std::size_t{2048}, pairs_of_wave(threads) + 4096,
+                                    pairs_of_wave(threads) + 10}) {  // a last wave of one batch
       CAPTURE(threads, count);
       const std::vector<BodyPair> in_a_half = pairs_touching_from(count / 2, count);
       const std::vector<std::uint32_t> begin = batches(in_a_half, threads);
