@@ -42,6 +42,7 @@ WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers)
   for (const Body& body : model.bodies) {
     corner_begin_.push_back(body.corner_begin);
     corner_count_.push_back(model.one_piece(body) ? body.corner_end - body.corner_begin : 0);
+    any_divided_ = any_divided_ || !model.one_piece(body);
   }
 }
 
@@ -87,7 +88,7 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
     const std::uint32_t before = latest_[body];
     if (before == nowhere || before < first) {
       latest_[body] = static_cast<std::uint32_t>(bodies_.size());
-      append_to(bodies_, {body, 0, 0, 0, before != nowhere, false});
+      append_to(bodies_, {body, 0, 0, 0, corner_begin_[body], corner_count_[body], before != nowhere, false});
       if (before != nowhere) {
         if (!bodies_[before].begun) {
           bodies_[before].sum = static_cast<std::uint32_t>(sum_x_.size());
@@ -139,29 +140,20 @@ void WaveLoads::fill(const Model& model, std::span<const PiecePair> pieces_of_pa
 
 bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState& motion) {
   const std::size_t first = wave_bodies_[wave_], count = wave_bodies_[wave_ + 1] - first;
-  const kernels::GatheredLoads loads{corner_begin_.data(),
-                                     corner_count_.data(),
-                                     bodies_.data() + first,
+  const kernels::GatheredLoads loads{bodies_.data() + first,
                                      pieces_.data(),
                                      x_.data(),
                                      y_.data(),
                                      sum_x_.data(),
-                                     sum_y_.data()};
-  const auto one_piece = [&](std::size_t i) {
-    const std::uint32_t body = loads.bodies[i].body;
-    return corner_count_[body] != 0 && (still.empty() || still[body] == 0);
-  };
+                                     sum_y_.data(),
+                                     still.empty() ? nullptr : still.data()};
   std::atomic<bool> sound{true};
   workers_.over(count, body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    double all = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t run = i;
-      while (i < end && one_piece(i)) ++i;
-      all += kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(),
-                                motion.forces.data(), run, i);
-      if (i == end) break;
+    double all = kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(),
+                                    motion.forces.data(), begin, end);
+    for (std::size_t i = begin; i < end && any_divided_; ++i) {
       const kernels::BodyLoads& gathered = loads.bodies[i];
-      if (!still.empty() && still[gathered.body] != 0) continue;
+      if (gathered.corner_count != 0 || (!still.empty() && still[gathered.body] != 0)) continue;
       for (std::uint32_t at = gathered.begin; at != gathered.end; ++at)
         all += add_piece_loads(model, pieces_[at], motion);
     }

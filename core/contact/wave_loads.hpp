@@ -64,6 +64,7 @@ class WaveLoads {
   const kernels::BlockKernels& kernels_;
   std::vector<std::uint32_t> corner_begin_;    ///< [body]
   std::vector<std::uint32_t> corner_count_;    ///< [body] of one that is one convex piece; else 0
+  bool any_divided_ = false;                   ///< whether there are others
   std::vector<double> x_, y_;                  ///< and a guard behind them
   std::vector<std::uint32_t> batch_load_;      ///< [batch of pairs + 1] its first load; 0: a wave begins
   std::vector<kernels::BodyLoads> bodies_;     ///< wave after wave

@@ -197,8 +197,9 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     load(loads.sum_fx + body.sum, x);
     load(loads.sum_fy + body.sum, y);
   }
-  for (std::uint32_t at = body.begin; at != body.end; ++at) {
-    const std::uint32_t from = loads.pieces[at].load;
+  const PieceLoads* const end = loads.pieces + body.end;
+  for (const PieceLoads* piece = loads.pieces + body.begin; piece != end; ++piece) {
+    const std::uint32_t from = piece->load;
     Quad more_x, more_y;
     load(loads.fx + from, more_x);
     load(loads.fy + from, more_y);
@@ -226,9 +227,11 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
   add_to(force, x, y, px, py);
 }
 
-void add_to_any(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
-                const BodyLoads& body, BodyForce& force, double& all) {
-  const std::uint32_t count = loads.corner_count[body.body];
+/// Apart from the loop over small bodies, which needs all registers.
+[[gnu::noinline]] void add_to_any(const double* reference_x, const double* reference_y,
+                                  const GatheredLoads& loads, const BodyLoads& body, BodyForce& force,
+                                  double& all) {
+  const std::uint32_t count = body.corner_count;
   constexpr std::uint32_t most = 16;
   double sum_x[most], sum_y[most];
   for (std::uint32_t part = 0; part < count; part += most) {
@@ -261,24 +264,22 @@ void add_to_any(const double* reference_x, const double* reference_y, const Gath
   }
 }
 
-double add_loads(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
+double add_loads(const GatheredLoads& given, const double* reference_x, const double* reference_y,
                  BodyForce* forces, std::size_t begin, std::size_t end) {
+  const GatheredLoads loads = given;  // which no store below can change
   double all = 0;
   Quad all_small{};
-  for (std::size_t i = begin; i < end; ++i) {
-    const BodyLoads& body = loads.bodies[i];
-    const double *x = reference_x + loads.corner_begin[body.body],
-                 *y = reference_y + loads.corner_begin[body.body];
-    BodyForce& force = forces[body.body];
-    switch (loads.corner_count[body.body]) {
-      case 3:
-        add_to_small<3>(x, y, loads, body, force, all_small);
-        break;
-      case 4:
-        add_to_small<4>(x, y, loads, body, force, all_small);
-        break;
-      default:
-        add_to_any(x, y, loads, body, force, all);
+  const BodyLoads* const last = loads.bodies + end;
+  for (const BodyLoads* body = loads.bodies + begin; body != last; ++body) {
+    if (loads.still != nullptr && loads.still[body->body] != 0) continue;
+    const double *x = reference_x + body->corner_begin, *y = reference_y + body->corner_begin;
+    BodyForce& force = forces[body->body];
+    if (body->corner_count == 4) {
+      add_to_small<4>(x, y, loads, *body, force, all_small);
+    } else if (body->corner_count == 3) {
+      add_to_small<3>(x, y, loads, *body, force, all_small);
+    } else if (body->corner_count > 0) {
+      add_to_any(x, y, given, *body, force, all);
     }
   }
   return all + ((all_small[0] + all_small[1]) + (all_small[2] + all_small[3]));

@@ -39,18 +39,19 @@ struct BodyLoads {
   std::uint32_t body;
   std::uint32_t begin, end;  ///< in GatheredLoads::pieces
   std::uint32_t sum;         ///< where its sums stand meanwhile, four of them at least
-  bool begun;                ///< there were some before
-  bool goes_on;              ///< there will be more
+  std::uint32_t corner_begin;
+  std::uint32_t corner_count;  ///< of a body that is one convex piece; else 0
+  bool begun;                  ///< there were some before
+  bool goes_on;                ///< there will be more
 };
 
 /// Loads of contacts, to be gathered by bodies.
 struct GatheredLoads {
-  const std::uint32_t* corner_begin;  ///< [body]
-  const std::uint32_t* corner_count;  ///< [body]
   const BodyLoads* bodies;
   const PieceLoads* pieces;  ///< body after body
   const double *fx, *fy;     ///< N/m; one more may be read than there are
   double *sum_fx, *sum_fy;   ///< N/m, see BodyLoads::sum
+  const char* still;         ///< [body] whether to leave it as it is; null: none
 };
 
 /// How velocities are updated: v₊ = keep v₋ + gain (f/m + g); see StepConditions.
@@ -86,7 +87,7 @@ struct BlockKernels {
                  SpeedExtremes& speeds);
   /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
   void (*move)(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end);
-  /// Adds up the loads on [begin, end) of the bodies, each one convex piece, contact after contact
+  /// Adds up the loads on those of [begin, end) that are one convex piece, contact after contact
   /// (Eqs. 46–48). Returns what adding all loads gives: no finite number if one of them is none.
   double (*add_loads)(const GatheredLoads& loads, const double* reference_x, const double* reference_y,
                       BodyForce* forces, std::size_t begin, std::size_t end);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 #include <vector>
@@ -81,6 +82,84 @@ TEST_CASE("what blocks do and add up to shows neither in how many calls nor what
             for (std::size_t b = 0; b < count; ++b) REQUIRE(same_bits(found.motion[b], due.motion[b]));
           }
         }
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Loads of up to 13 contacts on bodies of all numbers of corners. Every seventh body is still.
+struct SomeLoads {
+  std::vector<double> x, y, fx, fy, sum_x, sum_y;
+  std::vector<BodyLoads> bodies;
+  std::vector<PieceLoads> pieces;
+  std::vector<char> still;
+
+  explicit SomeLoads(bool begun, bool goes_on) {
+    std::mt19937 source(7);
+    const auto random = [&] { return static_cast<double>(source()) / 2147483648.0 - 1; };
+    constexpr std::uint32_t counts[] = {4, 3, 0, 4, 5, 20};
+    for (std::uint32_t b = 0; b < 6 * 14; ++b) {
+      const std::uint32_t count = counts[b % 6], contacts = b / 6;
+      const auto corner_begin = static_cast<std::uint32_t>(x.size()),
+                 sum = static_cast<std::uint32_t>(sum_x.size());
+      still.push_back(b % 7 == 3 ? 1 : 0);
+      for (std::uint32_t i = 0; i < count; ++i) x.push_back(random()), y.push_back(random());
+      const auto first = static_cast<std::uint32_t>(pieces.size());
+      for (std::uint32_t c = 0; c < contacts; ++c) {
+        pieces.push_back({static_cast<std::uint32_t>(fx.size()), 0});
+        for (std::uint32_t i = 0; i < count; ++i) fx.push_back(random()), fy.push_back(random());
+      }
+      bodies.push_back({b, first, first + contacts, sum, corner_begin, count, begun, goes_on});
+      for (std::uint32_t i = 0; i < std::max(count, 4U); ++i)
+        sum_x.push_back(random()), sum_y.push_back(random());
+    }
+    // A row of four may be read from any corner on.
+    for (std::vector<double>* values : {&x, &y, &fx, &fy}) values->insert(values->end(), 4, 0.0);
+  }
+
+  std::vector<BodyForce> add(SimdLevel level) {
+    std::vector<BodyForce> forces(bodies.size(), {{1, 2}, {3, 4, 5, 6}});
+    const GatheredLoads loads{bodies.data(), pieces.data(), fx.data(),   fy.data(),
+                              sum_x.data(),  sum_y.data(),  still.data()};
+    block_kernels(level).add_loads(loads, x.data(), y.data(), forces.data(), 0, bodies.size());
+    return forces;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("loads are gathered by all bodies of one piece that move, with the same bits", "[kernels]") {
+  for (const bool begun : {false, true}) {
+    for (const bool goes_on : {false, true}) {
+      SomeLoads due(begun, goes_on);
+      const std::vector<double> before = due.sum_x;
+      const std::vector<BodyForce> forces = due.add(SimdLevel::scalar);
+      for (std::size_t b = 0; b < forces.size(); ++b) {
+        CAPTURE(begun, goes_on, b);
+        const BodyLoads& body = due.bodies[b];
+        const bool takes_part = body.corner_count > 0 && due.still[b] == 0;
+        double sum = 1, moment = 3;
+        for (std::uint32_t i = 0; i < body.corner_count && takes_part; ++i) {
+          double load = begun ? before[body.sum + i] : 0;
+          for (std::uint32_t at = body.begin; at < body.end; ++at) load += due.fx[due.pieces[at].load + i];
+          sum += load;
+          moment += load * due.x[body.corner_begin + i];
+          if (goes_on) CHECK(due.sum_x[body.sum + i] == load);
+        }
+        const bool added = takes_part && !goes_on;
+        // Rounding of less than three hundred numbers up to 1.
+        CHECK(forces[b].force.x == Approx(added ? sum : 1).margin(1e-12));
+        CHECK(forces[b].moment.xx == Approx(added ? moment : 3).margin(1e-12));
+      }
+      for (int level = 1; level <= static_cast<int>(best_simd_level()); ++level) {
+        CAPTURE(begun, goes_on, level);
+        SomeLoads found(begun, goes_on);
+        const std::vector<BodyForce> here = found.add(static_cast<SimdLevel>(level));
+        for (std::size_t b = 0; b < here.size(); ++b) REQUIRE(same_bits(here[b], forces[b]));
+        CHECK(found.sum_x == due.sum_x);
+        CHECK(found.sum_y == due.sum_y);
       }
     }
   }
