@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace talus {
@@ -18,13 +17,6 @@ constexpr double skin_share = 0.1;
 constexpr double clear_share = 0.8;
 
 void noop(void* /*object*/) noexcept {}
-
-/// A few; a call would cost more than they do.
-void copy_doubles(const double* from, std::size_t count, double* to) {
-  std::size_t i = 0;
-  for (; i + 2 <= count; i += 2) std::memcpy(to + i, from + i, 2 * sizeof(double));
-  if (i < count) to[i] = from[i];
-}
 
 /// Whether laws may take it for one convex piece of one surface class all around.
 bool is_plain(const Model& model, const Body& body) {
@@ -43,6 +35,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
                            SimdLevel level)
     : law_(nullptr, noop),
       workers_(workers),
+      kernels_(kernels::contact_kernels(level)),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
       workspaces_(static_cast<std::size_t>(workers.threads())),
@@ -155,7 +148,9 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
     if (anew) loads_.prepare(number);
     Workspace& found = workspaces_[thread];
     const std::size_t begin = batch_begin_[number], end = batch_begin_[number + 1];
-    const std::uint32_t count = choose_active(begin, end, until, found.active);
+    // Pairs that were apart need no look until both bodies together may have closed the gap.
+    const std::uint32_t count = kernels_.choose(
+        ask_again_.data() + begin, static_cast<std::uint32_t>(end - begin), until, found.active.data());
     if (count == 0) return;
     loads_.expect();
 #ifdef TALUS_AUDIT
@@ -186,78 +181,39 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
   workers_.over(batches, 1, ask_batch);
 }
 
-/// Pairs that were apart need no look until both bodies together may have closed the gap.
-std::uint32_t ContactStage::choose_active(std::size_t begin, std::size_t end, double until,
-                                          std::vector<std::uint32_t>& active) const {
-  std::uint32_t count = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    active[count] = static_cast<std::uint32_t>(i - begin);
-    count += ask_again_[i] <= until ? 1 : 0;
-  }
-  return count;
-}
-
-/// What the law found becomes what it is told of the previous step next time, while it is at hand.
+/// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
+/// that is short of room is left as it was, to be asked about again.
 void ContactStage::close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
                          const Workspace& found) {
+  const std::size_t begin = batch_begin_[batch];
+  const kernels::PairBooks books{pairs_.data() + begin,
+                                 ask_again_.data() + begin,
+                                 damping_power_.data() + begin,
+                                 history_.data() + std::size_t{slot_base_[batch]} * history_doubles_,
+                                 found.history.data(),
+                                 found.reports.data(),
+                                 history_doubles_,
+                                 travelled_,
+                                 skin_ > 0};
+  if (keeps_stored_) {
+    for (const std::uint32_t i : active) stored_[begin + i] = found.reports[i].stored;
+  }
   while (!active.empty()) {
     const std::size_t in_batch = active.front() / pair_chunk, end = (in_batch + 1) * pair_chunk;
-    const auto of_chunk = std::lower_bound(active.begin(), active.end(), end) - active.begin();
-    close_chunk(model, batch, active.first(of_chunk), found,
-                chunk_totals_[batch_begin_[batch] / pair_chunk + in_batch]);
-    active = active.subspan(of_chunk);
+    const auto first = active.begin(), last = first + std::min(active.size(), pair_chunk);
+    const auto of_chunk = active.first(std::lower_bound(first, last, end) - first);
+    ChunkTotals& chunk = chunk_totals_[begin / pair_chunk + in_batch];
+    kernels::ClosedChunk closed;
+    kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
+    for (const std::uint32_t i : closed.parted) fill_loads(model, pairs_[begin + i], 0);
+    chunk.short_of_room = closed.short_of_room.count > 0;
+    for (const std::uint32_t i : closed.short_of_room) {
+      capacities_[begin + i] = 2 * found.reports[i].contact_count;
+      ask_again_[begin + i] = in_this_step;
+    }
+    if (!closed.finite) chunk.unsound = first_unsound(begin, of_chunk, found);
+    active = active.subspan(of_chunk.size());
   }
-}
-
-/// A pair that is short of room is left as it was, to be asked about again.
-void ContactStage::close_chunk(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
-                               const Workspace& found, ChunkTotals& chunk) {
-  const std::size_t begin = batch_begin_[batch];
-  const double travelled = travelled_;
-  const bool skin = skin_ > 0;
-  double *const ask_again = ask_again_.data() + begin, *const damping_power = damping_power_.data() + begin;
-  double* const stored = stored_.empty() ? nullptr : stored_.data() + begin;
-  double* const history = history_.data() + std::size_t{slot_base_[batch]} * history_doubles_;
-  ChunkTotals totals = chunk;
-  totals.short_of_room = false;
-  double sound = 0;
-  for (const std::uint32_t i : active) {
-    BodyPair& pair = pairs_[begin + i];
-    const PairReport& report = found.reports[i];
-    if (report.contact_count > pair.slot_capacity) {
-      totals.short_of_room = true;
-      capacities_[begin + i] = 2 * report.contact_count;
-      ask_again[i] = in_this_step;
-      continue;
-    }
-    sound += (report.penetration + report.stored) + (report.slip_loss + report.damping_power);
-    totals.stored += report.stored;
-    totals.slip_loss += report.slip_loss;
-    if (stored != nullptr) stored[i] = report.stored;
-    if (report.contact_count == 0) {
-      if (pair.contact_count != 0) fill_loads(model, pair, 0);
-      pair.contact_count = 0;
-      damping_power[i] = 0;
-      ask_again[i] = skin ? travelled + report.gap / 2 : 0;
-      continue;
-    }
-    // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
-    totals.damping_loss +=
-        (report.damping_power + std::sqrt(std::max(0.0, report.damping_power * damping_power[i]))) / 2;
-    if (!(report.penetration <= totals.penetration)) {
-      totals.penetration = report.penetration;
-      totals.deepest_a = pair.a;
-      totals.deepest_b = pair.b;
-    }
-    pair.contact_count = report.contact_count;
-    damping_power[i] = report.damping_power;
-    ask_again[i] = 0;
-    const std::size_t slot = std::size_t{pair.slot_start} * history_doubles_;
-    copy_doubles(found.history.data() + slot, std::size_t{report.contact_count} * history_doubles_,
-                 history + slot);
-  }
-  if (!std::isfinite(sound)) totals.unsound = first_unsound(begin, active, found);
-  chunk = totals;
 }
 
 /// The first pair with a report that is no number.

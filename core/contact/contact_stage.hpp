@@ -1,6 +1,7 @@
 #pragma once
 
 #include "checkpoint/archive.hpp"
+#include "contact/contact_totals.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
 #include "contact/wave_loads.hpp"
@@ -17,13 +18,6 @@
 #include <vector>
 
 namespace talus {
-
-/// What all contacts of a step add up to, J/m and m.
-struct ContactTotals {
-  double stored = 0, slip_loss = 0, damping_loss = 0;
-  double penetration = 0;
-  std::uint32_t deepest_a = 0, deepest_b = 0;  ///< bodies of the deepest overlap
-};
 
 /// Which bodies may touch, the law's history of each contact, and the forces of a step (Table 1).
 class ContactStage {
@@ -131,12 +125,8 @@ class ContactStage {
   template <class Each>
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
            double until, bool anew, const Each& each);
-  std::uint32_t choose_active(std::size_t begin, std::size_t end, double until,
-                              std::vector<std::uint32_t>& active) const;
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
              const Workspace& found);
-  void close_chunk(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
-                   const Workspace& found, ChunkTotals& totals);
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
@@ -161,6 +151,7 @@ class ContactStage {
   std::vector<char> plain_;          ///< [body] as BodyPair says it
   std::vector<double> clear_depth_;  ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
+  const kernels::ContactKernels& kernels_;
   double near_;        ///< m, up to which bodies are neighbours
   double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
   double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once

@@ -4,15 +4,18 @@ namespace talus::kernels {
 
 namespace scalar {
 extern const BlockKernels block_kernels;
+extern const ContactKernels contact_kernels;
 extern const ElementKernels element_kernels;
 }  // namespace scalar
 #ifdef TALUS_KERNEL_LEVELS
 namespace avx2 {
 extern const BlockKernels block_kernels;
+extern const ContactKernels contact_kernels;
 extern const ElementKernels element_kernels;
 }  // namespace avx2
 namespace avx512 {
 extern const BlockKernels block_kernels;
+extern const ContactKernels contact_kernels;
 extern const ElementKernels element_kernels;
 }  // namespace avx512
 #endif
@@ -24,6 +27,15 @@ const BlockKernels& block_kernels(SimdLevel level) {
 #endif
   (void)level;
   return scalar::block_kernels;
+}
+
+const ContactKernels& contact_kernels(SimdLevel level) {
+#ifdef TALUS_KERNEL_LEVELS
+  if (level == SimdLevel::avx512) return avx512::contact_kernels;
+  if (level == SimdLevel::avx2) return avx2::contact_kernels;
+#endif
+  (void)level;
+  return scalar::contact_kernels;
 }
 
 const ElementKernels& element_kernels(SimdLevel level) {
