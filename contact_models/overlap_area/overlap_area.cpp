@@ -5,6 +5,7 @@
 #include <talus/overlap/distributed_contact.hpp>
 
 #include <memory>
+#include <new>
 
 namespace {
 
@@ -36,6 +37,8 @@ class OverlapArea final : public ContactModel {
   std::uint32_t doubles_per_contact() const noexcept override { return overlap::friction_doubles; }
 
   void prepare_interface(double* values) const noexcept override { values[2] = std::tan(values[2]); }
+
+  BatchPlan* make_plan() const noexcept override { return new (std::nothrow) overlap::LanePlan; }
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto contact = std::make_unique<overlap::DistributedContact<OverlapArea>>();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -210,6 +211,38 @@ void check_split(const Subject& subject, Trial& trial) {
     law.evaluate(halves[0].view(), both.view());
     other.join();
     expect_same_bits(trial, difference_of(batch, whole, both));
+  }
+}
+
+void check_plan(const Subject& subject, Trial& trial) {
+  DrivenLaw driven(*subject.component);
+  fill_with_pairs(driven);
+  const std::unique_ptr<BatchPlan> plan(driven.law().make_plan());
+  if (plan == nullptr) {
+    trial.not_claimed("make_plan() gives none");
+    return;
+  }
+  std::uint64_t layout = 1;
+  for (int step = 0; step < 80; ++step) {
+    if (step % 20 == 10) {  // pairs part, or meet again
+      for (HeldBody& body : driven.bodies)
+        body.motion.velocity = {-2 * body.motion.velocity.x, -2 * body.motion.velocity.y};
+    }
+    if (step == 50) {
+      std::reverse(driven.met.begin(), driven.met.end());
+      ++layout;
+    }
+    GivenBatch alone = driven.given(1e-4 * (1 + step % 3));
+    if (step % 8 == 5) alone = only(alone, every_second(alone, 0));
+    GivenBatch planned = alone;
+    planned.plan = plan.get();
+    planned.layout = layout;
+    trial.feed(fmt::format("step {}: {} pairs on a plan that is {} steps old, and without", step + 1,
+                           alone.active.size(), step < 50 ? step : step - 50));
+    expect_same_bits(trial, difference_of(alone, call(driven.law(), alone), call(driven.law(), planned)));
+    const std::uint32_t slots = alone.slot_count;
+    driven.step();
+    if (driven.given().slot_count != slots) ++layout;
   }
 }
 

@@ -8,6 +8,7 @@ namespace talus::conformance {
 void check_restore(const Subject& subject, Trial& trial);
 void check_reset(const Subject& subject, Trial& trial);
 void check_split(const Subject& subject, Trial& trial);
+void check_plan(const Subject& subject, Trial& trial);
 void check_writes(const Subject& subject, Trial& trial);
 void check_reads(const Subject& subject, Trial& trial);
 void check_degenerate(const Subject& subject, Trial& trial);

@@ -27,6 +27,7 @@ std::span<const Check> contact_checks() {
       {"restore", "the same history gives the same bits: all state lives with the host", check_restore},
       {"reset", "a contact that is new starts afresh", check_reset},
       {"split", "the same bits in any split of a batch, in any thread", check_split},
+      {"plan", "the same bits with a plan of the batch as without", check_plan},
       {"writes", "writes only where it may", check_writes},
       {"reads", "reads nothing past its arrays", check_reads},
       {"degenerate", "degenerate bodies give finite loads; what is no number comes to an end",

@@ -30,7 +30,9 @@ ContactBatch GivenBatch::view() const {
           static_cast<std::uint32_t>(active.size()),
           dt,
           hold_stick,
-          bonds_form};
+          bonds_form,
+          plan,
+          layout};
 }
 
 void GivenBatch::surround(unsigned char value) {

@@ -27,6 +27,8 @@ struct GivenBatch {
   double dt = 1e-4;
   bool hold_stick = false, bonds_form = false;
   std::uint32_t load_count = 0, slot_count = 0, doubles_per_contact = 0;
+  BatchPlan* plan = nullptr;
+  std::uint64_t layout = 0;
 
   ContactBatch view() const;
   void surround(unsigned char value);

@@ -57,11 +57,11 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
     Names not_claimed;
   };
   const Shipped shipped[] = {{"overlap_area", {}},
-                             {"vertex_edge", {"potential"}},
-                             {"frictionless", {"friction"}},
-                             {"feng_volume", {"friction"}},
-                             {"cohesive_overlap", {}},
-                             {"potential_symmetric", {"friction"}},
+                             {"vertex_edge", {"potential", "plan"}},
+                             {"frictionless", {"friction", "plan"}},
+                             {"feng_volume", {"friction", "plan"}},
+                             {"cohesive_overlap", {"plan"}},
+                             {"potential_symmetric", {"friction", "plan"}},
                              {"linear_elastic", {}},
                              {"hypoelastic", {"potential", "sweep"}},
                              {"mohr_coulomb", {"potential", "sweep"}},
@@ -83,7 +83,7 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
 TEST_CASE("check-plugin passes a right law, material and cover in each of their checks", "[conformance]") {
   const Scratch scratch;
   for (const auto& [library, checks] :
-       {std::pair{"right", 22}, std::pair{"right_rock", 10}, std::pair{"right_fan", 7}}) {
+       {std::pair{"right", 23}, std::pair{"right_rock", 10}, std::pair{"right_fan", 7}}) {
     const Call right = call_talus(scratch.folder(), {"check-plugin", spoilt(library)});
     INFO(right.out << right.err);
     CHECK(right.code == 0);
@@ -117,6 +117,7 @@ TEST_CASE("a law that is wrong about energy or stiffness fails in the one check 
 TEST_CASE("a law that does not keep to the interface fails in the one check that is meant for it",
           "[conformance]") {
   expect_one_failure({{"breaks_on_short_sides", "degenerate"},
+                      {"clings_to_plan", "plan"},
                       {"crashes", "degenerate"},
                       {"depends_on_batch", "split"},
                       {"ignores_reset", "reset"},

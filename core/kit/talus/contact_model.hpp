@@ -75,6 +75,17 @@ struct BodyPair {
   bool plain() const { return plain_corners[0] != 0; }
 };
 
+/// What a law keeps of a batch of pairs from step to step, such as which of them it evaluates side by side:
+/// made by ContactModel::make_plan(), held by the host with the batch, and never saved, so no result may
+/// depend on it.
+class BatchPlan {
+ public:
+  BatchPlan() = default;
+  BatchPlan(const BatchPlan&) = delete;
+  BatchPlan& operator=(const BatchPlan&) = delete;
+  virtual ~BatchPlan() = default;
+};
+
 /// What a law is given: a range of pairs at time t_n. Host memory, read-only.
 struct ContactBatch {
   Boundaries boundaries;
@@ -84,9 +95,12 @@ struct ContactBatch {
   const double* history;        ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
   const std::uint32_t* active;  ///< [active_count] the pairs to evaluate, as indices into `pairs`, rising
   std::uint32_t active_count;
-  double dt;        ///< s, from t_{n-1} to t_n
-  bool hold_stick;  ///< settling: friction is held stuck, no slip limit applies
-  bool bonds_form;  ///< first evaluation and settling: contacts found now are born intact
+  double dt;                  ///< s, from t_{n-1} to t_n
+  bool hold_stick;            ///< settling: friction is held stuck, no slip limit applies
+  bool bonds_form;            ///< first evaluation and settling: contacts found now are born intact
+  BatchPlan* plan = nullptr;  ///< of this batch, for the law to change; or none
+  std::uint64_t layout =
+      0;  ///< while it is the same, so is all of `pairs` and `piece_pairs` but contact_count
 };
 
 /// Says of a pair of plain bodies what BodyPair repeats. Both have one piece, of at most 65,535 corners.
@@ -156,6 +170,9 @@ class ContactModel {
   /// Turns the declared parameters of one interface, once, into what the step wants in their places (the
   /// tangent of an angle, say). `evaluate` and `stiffness` get the prepared values.
   virtual void prepare_interface(double* values) const noexcept { (void)values; }
+
+  /// A new plan, for a batch that it has not seen yet; the host deletes it. Null if there is nothing to keep.
+  virtual BatchPlan* make_plan() const noexcept { return nullptr; }
 
   /// Loads at t_n (Eqs. 28–44). Equal and opposite, without net moment, at the corners of the pieces.
   virtual void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept = 0;

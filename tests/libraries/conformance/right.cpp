@@ -8,6 +8,8 @@ using namespace spoilt;
 class Right final : public AreaLaw {
  public:
   using AreaLaw::AreaLaw;
+
+  talus::BatchPlan* make_plan() const noexcept override { return new talus::BatchPlan; }
 };
 
 constexpr talus::Component components[] = {area_law<Right>("right")};

@@ -40,11 +40,13 @@ class DistributedContact {
     const auto one_by_one = [&](std::uint32_t i) {
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
     };
-    quadrilaterals_.clear(batch.active_count);
-    octagons_.clear(batch.active_count);
+    if (batch.plan == nullptr) plan_.clear();
+    LanePlan& plan = batch.plan == nullptr ? plan_ : static_cast<LanePlan&>(*batch.plan);
+    plan.list_loose(batch, loose_);
+    quadrilaterals_.clear(loose_.size());
+    octagons_.clear(loose_.size());
     const bool fit = fits_lanes(law);
-    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
-      const std::uint32_t i = batch.active[k];
+    for (const std::uint32_t i : loose_) {
       const BodyPair& pair = batch.pairs[i];
       // Of bodies that are not plain this is larger than any number of corners.
       const std::uint32_t last_corner = (pair.plain_corners[0] - 1U) | (pair.plain_corners[1] - 1U);
@@ -56,8 +58,11 @@ class DistributedContact {
         octagons_.add(batch, i);
       }
     }
-    quadrilaterals_.evaluate(law, batch, loads, one_by_one);
-    octagons_.evaluate(law, batch, loads, one_by_one);
+    quadrilaterals_.give_lanes(batch, loads, plan, plan.quadrilaterals);
+    octagons_.give_lanes(batch, loads, plan, plan.octagons);
+    plan.note_sorted();
+    quadrilaterals_.evaluate(law, batch, loads, plan, plan.quadrilaterals, one_by_one);
+    octagons_.evaluate(law, batch, loads, plan, plan.octagons, one_by_one);
   }
 
   static bool fits_lanes(const Law& law) {
@@ -101,7 +106,7 @@ class DistributedContact {
       double slip = 0;
       if constexpr (Law::frictional) {
         FrictionHistory& history = carried_[g];
-        tangential = friction(law, batch, sink, pair, g, history, report);
+        tangential = friction(law, batch, sink, pair, history, report);
         slip = history.slip;
         if (g < pair.slot_capacity)
           write_history(history, loads.history + (pair.slot_start + g) * friction_doubles);
@@ -359,7 +364,7 @@ class DistributedContact {
 
   /// Eqs. 37–44. Tangential loads act on both bodies at one common point of each cell, shared by μ_k P_k.
   Point friction(const Law& law, const ContactBatch& batch, const LoadSink& sink, const BodyPair& pair,
-                 std::uint32_t group, FrictionHistory& history, PairReport& report) {
+                 FrictionHistory& history, PairReport& report) {
     double load = 0, limit = 0, stiffness = 0, damping = 0;
     for (const Cell& cell : cells_) {
       load += cell.load;
@@ -367,13 +372,13 @@ class DistributedContact {
       stiffness += cell.interface.tangential_stiffness * cell.load;
       damping += cell.interface.tangential_damping * cell.load;
     }
-    const Point centre = centre_of(group);
-    history.x = centre.x;
-    history.y = centre.y;
+    const Point foot = foot_of_all();
+    history.x = foot.x;
+    history.y = foot.y;
     const double old_stored = history.stored, old_applied = history.applied;
     if (!(limit > 0) || contact_length_ == 0) {
       report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
-      history = {0, 0, 0, contact_length_, centre.x, centre.y, 0, history.strip_a, history.strip_b};
+      history = {0, 0, 0, contact_length_, foot.x, foot.y, 0, history.strip_a, history.strip_b};
       return {0, 0};
     }
     if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(limit, batch.dt);
@@ -410,10 +415,10 @@ class DistributedContact {
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
       for (std::uint32_t s = cell.segment_start; total > 0 && s < cell.segment_end; ++s) {
         on_slave +=
-            segments_[s].share() / total * slave.working_velocity(segments_[s].side, cell.foot, tangent_);
+            segments_[s].share() / total * slave.velocity_inside(segments_[s].side, cell.foot, tangent_);
       }
       if (!(total > 0))
-        on_slave = slave.working_velocity(any_real_side(*cell.overlap, slave), cell.foot, tangent_);
+        on_slave = slave.velocity_inside(any_real_side(*cell.overlap, slave), cell.foot, tangent_);
       const double on_master =
           dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.foot)));
       const double share = cell.interface.friction * cell.load / limit;
@@ -431,38 +436,35 @@ class DistributedContact {
     double total = 0;
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
     if (!(total > 0)) {
-      sink.at_point(slave, any_real_side(*cell.overlap, slave), cell.foot, on_slave);
+      sink.inside(slave, any_real_side(*cell.overlap, slave), cell.foot, on_slave);
       return;
     }
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
-      sink.at_point(slave, segments_[s].side, cell.foot, (segments_[s].share() / total) * on_slave);
+      sink.inside(slave, segments_[s].side, cell.foot, (segments_[s].share() / total) * on_slave);
     }
   }
 
-  Point centre_of(std::uint32_t group) const {
-    double area = 0;
-    Point moment{0, 0};
-    for (const Overlap& overlap : finder_.overlaps()) {
-      if (overlap.group != group) continue;
-      const AreaCentroid region = area_centroid(overlap.polygon);
-      area += region.area;
-      moment = moment + region.area * region.centroid;
-    }
-    return area > 0 ? (1 / area) * moment : cells_[0].foot;
-  }
-
-  ContactReport contact_report(Point tangential, double slip) const {
+  /// The feet of all cells by their loads.
+  Point foot_of_all() const {
     double load = 0;
-    Point moment{0, 0}, normal{0, 0};
+    Point moment{0, 0};
     for (const Cell& cell : cells_) {
       load += cell.load;
       moment = moment + cell.load * cell.foot;
-      normal = normal + (cell.master == 0 ? cell.load : -cell.load) * cell.normal;
     }
-    const Point at = load > 0 ? (1 / load) * moment : cells_[0].foot;
+    return load > 0 ? (1 / load) * moment : cells_[0].foot;
+  }
+
+  ContactReport contact_report(Point tangential, double slip) const {
+    Point normal{0, 0};
+    for (const Cell& cell : cells_)
+      normal = normal + (cell.master == 0 ? cell.load : -cell.load) * cell.normal;
+    const Point at = foot_of_all();
     return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
   }
 
+  LanePlan plan_;  ///< of batches that have none of their own
+  std::vector<std::uint32_t> loose_;
   LaneContact<Law, 4> quadrilaterals_;
   LaneContact<Law, 8> octagons_;
   OverlapGroups finder_;

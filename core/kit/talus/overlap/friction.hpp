@@ -11,7 +11,7 @@ struct FrictionHistory {
   double applied;           ///< N/m, tangential force without damping
   double stored;            ///< J/m, in the tangential spring
   double contact_length;    ///< m, L projected on s_c
-  double x, y;              ///< m, centre of the overlap in the frame of the pair, to know it again
+  double x, y;              ///< m, where it acts, in the frame of the pair: to know it again
   double slip;              ///< direction of the force while slipping (±1), 0 while sticking
   double strip_a, strip_b;  ///< 1 + numbers of the two pieces where one is a strip; else 0, or strip_a is
                             ///< what the lanes remember of plain bodies (TouchingPair)

@@ -10,28 +10,25 @@
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
 
-/// A stretch of one slave side in the cell of one master side (Fig. 5).
+/// A stretch of one slave side in the cell of one master side (Fig. 5). Lanes without it have a length of 0.
 struct LaneSegment {
-  LaneCorner* slave;  ///< where the side starts
-  Mask valid;
+  LaneCorner* slave;            ///< where the side starts
   Pack start, end;              ///< along the slave side, 0 to 1
   Pack start_lever, end_lever;  ///< along the master side, 0 to 1
-  Pack start_load, end_load;    ///< N/m, trapezoid load as two end loads
-  Pack length, share;           ///< m; m², its part of the area below it
-
-  /// Part of a unit tangential force on piece 1, as forces on the ends of the slave side: along the tangent,
-  /// and a couple, outwards at the start, inwards at the end.
-  Pack shear_start, shear_end, couple;
+  Pack start_depth, end_depth;  ///< m, (2d₁ + d₂)/6 and (d₁ + 2d₂)/6: how a linear load goes to both ends
+  Pack length, facing;          ///< m, along the slave; projected on the master side, where it faces that
 };
 
 /// The cell of one master side.
 struct LaneCell {
   LaneCorner* master;        ///< where the side starts
   LaneSegment *begin, *end;  ///< its segments
+  Pack area;                 ///< m²
   Pack load;                 ///< N/m, normal
   Pack lever;                ///< where on the side, 0 to 1
-  Pack share;                ///< m², sum over its segments
-  Pack shear;                ///< part of a unit tangential force on piece 1, on the slave
+
+  /// Below the centroid, on the side.
+  Packs2 foot() const { return master->at + lever * (master[1].at - master->at); }
 };
 
 /// Cells of one piece as master, the other as slave (§3.2.1), in closed form by Green's theorem. With s along
@@ -45,21 +42,21 @@ template <int corners>
 class LaneCells {
  public:
   Mask deep;
-  Pack stored, penetration;       ///< J/m, m
-  Pack area, moment_x, moment_y;  ///< m², m³: of the overlap, first moments
-  Packs2 arc;                     ///< m, sum of the segments along the slave
-  Pack arc_length;                ///< m
-  Packs2 force;                   ///< N/m on the slave
-  Pack pattern;                   ///< which sides meet, 4 · master side + slave side (of four) as bits
+  Pack stored, penetration;  ///< J/m, m
+  Pack area;                 ///< m², of the overlap
+  Packs2 arc;                ///< m, sum of the segments along the slave
+  Pack arc_length;           ///< m
+  Packs2 force;              ///< N/m on the slave, of the springs
+  Pack pattern;              ///< which sides meet, 4 · master side + slave side (of four) as bits
 
   std::span<LaneCell> cells() { return std::span(cell_).first(cell_count_); }
   std::span<const LaneCell> cells() const { return std::span(cell_).first(cell_count_); }
 
-  /// Finds the cells and loads both pieces with their pressure; either all lanes are mixed or none.
+  /// Finds the cells and what their pressure comes to; either all lanes are mixed or none.
   template <int master_sides, int slave_sides>
   void find(LanePiece<corners>& master, LanePiece<corners>& slave, Pack stiffness, Pack clear_depth) {
     deep = simd::nowhere();
-    stored = penetration = area = moment_x = moment_y = arc_length = pattern = 0.0;
+    stored = penetration = area = arc_length = pattern = 0.0;
     arc = force = {0.0, 0.0};
     cell_count_ = 0;
     next_segment_ = segment_;
@@ -77,7 +74,6 @@ class LaneCells {
       LaneCell& cell = cell_[cell_count_];
       cell.master = &master.corner[k];
       cell.begin = next_segment_;
-      cell.share = 0.0;
       const Pack inverse_length = 1.0 / cell.master->length;
       while (meetings != 0) {
         const int j = std::countr_zero(meetings) / lanes, shift = j * lanes;
@@ -85,7 +81,7 @@ class LaneCells {
         meetings ^= here << shift;
         const Mask possible = simd::mask_of(static_cast<unsigned>(here));
         const Heights heights{height_[k], height_[after], j + 1 == others ? 0 : j + 1};
-        cut_out(cell, slave, k, j, heights, possible, clear_depth, inverse_length, stiffness, sum);
+        cut_out(cell, slave, k, j, heights, possible, clear_depth, inverse_length, sum);
       }
       cell.end = next_segment_;
       if (cell.end != cell.begin) close_cell(cell, inverse_length, clear_depth, stiffness, sum);
@@ -162,7 +158,7 @@ class LaneCells {
   /// The part of a slave side in a cell, by its parameters (Liang–Barsky).
   [[gnu::always_inline]] void cut_out(LaneCell& cell, LanePiece<corners>& slave, int k, int j,
                                       const Heights& heights, Mask possible, Pack clear_depth,
-                                      Pack inverse_length, Pack stiffness, Integrals& sum) {
+                                      Pack inverse_length, Integrals& sum) {
     const LaneCorner& master = *cell.master;
     LaneCorner& side = slave.corner[j];
     const Pack first = depth_[j], last = depth_[heights.last];
@@ -181,21 +177,21 @@ class LaneCells {
     const Mask leaves_right = (right_last >= 0.0) & (after <= t1);
     t1 = simd::select(leaves_right, after, t1);
 
-    // Elsewhere the parameters may be no numbers at all.
     Mask valid = possible & (t0 <= t1);
     if (!simd::any(valid)) return;
-    t0 = simd::only_where(valid, t0);
-    t1 = simd::only_where(valid, t1);
-
-    const Packs2 from = side.at - master.at, span = (&side)[1].at - side.at;
-    const Pack start_along = simd::dot(master.tangent, from), span_along = simd::dot(master.tangent, span);
-    const Pack d0 = simd::max(0.0, first + t0 * (last - first)),
-               d1 = simd::max(0.0, first + t1 * (last - first));
-    const Pack s0 = start_along + t0 * span_along, s1 = start_along + t1 * span_along;
-
+    Pack d0 = first + t0 * (last - first), d1 = first + t1 * (last - first);
     const Mask clear0 = d0 <= clear_depth, clear1 = d1 <= clear_depth;
     deep = deep | (valid & ((clear0 & !clear1) | (clear1 & !clear0)));
     valid = valid & clear0;
+    // Elsewhere the parameters may be no numbers at all; with zeros all that follows comes to nothing.
+    t0 = simd::only_where(valid, t0);
+    t1 = simd::only_where(valid, t1);
+    d0 = simd::only_where(valid, simd::max(0.0, d0));
+    d1 = simd::only_where(valid, simd::max(0.0, d1));
+
+    const Packs2 from = side.at - master.at, span = (&side)[1].at - side.at;
+    const Pack start_along = simd::dot(master.tangent, from), span_along = simd::dot(master.tangent, span);
+    const Pack s0 = start_along + t0 * span_along, s1 = start_along + t1 * span_along;
 
     const Pack l = master.length, run = s1 - s0;
     // Distance along the side from the end that the line of division goes through; zero where there is none.
@@ -204,64 +200,44 @@ class LaneCells {
     const Pack in_from = simd::select(enters_right, l, 0.0), out_from = simd::select(leaves_right, l, 0.0);
     const Pack in_area = in * d0 * 0.5, out_area = out * d1 * 0.5;
     const Pack third = 1.0 / 3.0, sixth = 1.0 / 6.0;
-    sum.area = sum.area + simd::only_where(valid, run * (d0 + d1) * 0.5 + in_area - out_area);
-    sum.along =
-        sum.along + simd::only_where(valid, run * sixth * (s0 * (d0 + d0 + d1) + s1 * (d1 + d1 + d0)) +
-                                                in_area * (in * (third + third) + in_from) -
-                                                out_area * (out * (third + third) + out_from));
-    sum.depth = sum.depth + simd::only_where(valid, run * sixth * (d0 * d0 + d0 * d1 + d1 * d1) +
-                                                        in_area * d0 * third - out_area * d1 * third);
+    const Pack start_depth = sixth * (d0 + d0 + d1), end_depth = sixth * (d1 + d1 + d0);
+    sum.area = sum.area + run * (d0 + d1) * 0.5 + in_area - out_area;
+    sum.along = sum.along + run * (s0 * start_depth + s1 * end_depth) +
+                in_area * (in * (third + third) + in_from) - out_area * (out * (third + third) + out_from);
+    sum.depth = sum.depth + run * sixth * (d0 * d0 + d0 * d1 + d1 * d1) + in_area * d0 * third -
+                out_area * d1 * third;
 
     LaneSegment& at = *next_segment_++;
+    const Pack part = t1 - t0;
     at.slave = &side;
-    at.valid = valid;
     at.start = t0;
     at.end = t1;
     at.start_lever = s0 * inverse_length;
     at.end_lever = s1 * inverse_length;
-    at.length = simd::only_where(valid, (t1 - t0) * side.length);
-    at.share = at.length * (d0 + d1) * 0.5;
-    const Pack scale = stiffness * at.length * sixth;
-    at.start_load = scale * (d0 + d0 + d1);
-    at.end_load = scale * (d1 + d1 + d0);
-    load_slave(side, at);
-    cell.share = cell.share + at.share;
-    arc = arc + simd::only_where(valid, t1 - t0) * span;
+    at.start_depth = start_depth;
+    at.end_depth = end_depth;
+    at.length = part * side.length;
+    at.facing = simd::max(0.0, -run);
+    arc = arc + part * span;
     arc_length = arc_length + at.length;
-    penetration = simd::max(penetration, simd::only_where(valid, simd::max(d0, d1)));
+    penetration = simd::max(penetration, simd::max(d0, d1));
     pattern = pattern + simd::only_where(valid, side_bit[k % 4 * 4 + j % 4]);
-  }
-
-  /// Eqs. 30–36: by the trapezoid rule.
-  static void load_slave(LaneCorner& side, const LaneSegment& at) {
-    const Packs2 inward = Pack(-1.0) * side.normal();
-    const Pack end = at.start_load * at.start + at.end_load * at.end;
-    side.push(at.start_load + at.end_load - end, inward);
-    (&side)[1].push(end, inward);
   }
 
   /// Eqs. 28–29: on the master through the centroid of the cell.
   [[gnu::always_inline]] void close_cell(LaneCell& now, Pack inverse_length, Pack clear_depth, Pack stiffness,
                                          const Integrals& sum) {
     ++cell_count_;
-    LaneCorner& side = *now.master;
+    const LaneCorner& side = *now.master;
     const Pack size = -sum.area;
     const Mask some = size > 0.0;
     deep = deep | (size < -1e-12 * side.length * clear_depth);
-    const Pack along = simd::only_where(some, -sum.along), depth = simd::only_where(some, -sum.depth);
-    now.load = simd::only_where(some, stiffness * size);
+    now.area = simd::only_where(some, size);
+    now.load = stiffness * now.area;
     now.lever = simd::only_where(some, -sum.along / size * inverse_length);
-    stored = stored + stiffness * depth;
-    area = area + simd::only_where(some, size);
-    const Packs2 t = side.tangent;  // inwards is (−t.y, t.x)
-    moment_x = moment_x + simd::only_where(some, size) * side.at.x + along * t.x - depth * t.y;
-    moment_y = moment_y + simd::only_where(some, size) * side.at.y + along * t.y + depth * t.x;
-    const Packs2 outward = side.normal();
-    const Packs2 push = now.load * outward;
-    const Packs2 at_end = now.lever * push;
-    force = force + push;
-    side.load = side.load - (push - at_end);
-    (&side)[1].load = (&side)[1].load - at_end;
+    stored = stored - stiffness * simd::only_where(some, sum.depth);
+    area = area + now.area;
+    force = force + now.load * side.normal();
   }
 
   Pack depth_[corners], height_[corners][corners];

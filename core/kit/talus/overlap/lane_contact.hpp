@@ -1,12 +1,13 @@
 #pragma once
 
 #include <talus/contact_model.hpp>
+#include <talus/overlap/friction.hpp>
 #include <talus/overlap/lane_cells.hpp>
 #include <talus/overlap/lane_group.hpp>
+#include <talus/overlap/lane_plan.hpp>
 #include <talus/overlap/lane_sieve.hpp>
 
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 namespace talus::overlap {
@@ -17,11 +18,12 @@ inline namespace TALUS_SIMD_LEVEL {
 template <class Law, int corners>
 class LaneContact {
  public:
-  /// Starts a batch of `most` pairs at most.
+  /// Starts a batch of `most` pairs without a lane at most.
   void clear(std::size_t most) {
     pairs_.clear();
-    if (touching_[0].size() >= most + lanes) return;  // room to fill the last group
-    for (auto* touching : {&touching_[0], &touching_[1], &sorted_}) touching->resize(most + lanes);
+    for (auto* touching : {&touching_[0], &touching_[1], &sorted_}) {
+      if (touching->size() < most) touching->resize(most);
+    }
   }
 
   /// Where friction is remembered, so is the side that faces the other body; pairs that overlapped a step ago
@@ -32,7 +34,6 @@ class LaneContact {
       if (at.contact_count == 1) {
         const double* old = batch.history + std::size_t{at.slot_start} * friction_doubles;
         if (old[7] > 0) {
-          fetch_ahead(batch.boundaries.corner + at.corner_start[1]);
           add_touching(at, TouchingPair::remembered(pair, old[7]));
           return;
         }
@@ -41,44 +42,73 @@ class LaneContact {
     pairs_.push_back(pair);
   }
 
-  /// Calls general(pair) for the pairs that need the general path. Pairs are independent of each other, so
-  /// which of them share a group cannot be seen in the result.
-  template <class General>
-  void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
-                const General& general) {
-    sieve_all(batch, loads);
-    evaluate_touching(law, batch, loads, general);
-    if (pairs_.empty()) return;
-    // Those of last step that may have parted.
-    sieve_all(batch, loads);
-    evaluate_touching(law, batch, loads, general);
-  }
-
- private:
-  void sieve_all(const ContactBatch& batch, const ContactLoads& loads) {
+  /// Gives lanes to the pairs that were added, as far as they overlap: in groups of the plan from the
+  /// `first` on.
+  void give_lanes(const ContactBatch& batch, const ContactLoads& loads, LanePlan& plan,
+                  std::vector<LaneGroup<corners>>& groups, std::size_t first = 0) {
+    // Lanes that are left are filled again, so that pairs added together find room for good.
+    const std::size_t added = pairs_.size() + touching_count_[0] + touching_count_[1];
+    if (added > 0) groups.reserve(added / lanes + spare_groups);
     for (std::size_t i = 0; i < pairs_.size(); i += lanes) sieve(batch, loads, i);
     pairs_.clear();
-  }
-
-  template <class General>
-  void evaluate_touching(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
-                         const General& general) {
     for (const bool averaged : {false, true}) {
       std::vector<TouchingPair>& touching = touching_[averaged];
       const std::size_t count = touching_count_[averaged];
       touching_count_[averaged] = 0;
       sort_by_pattern(touching, count);
-      for (std::size_t i = count; i % lanes != 0; ++i) touching[i] = touching[count / lanes * lanes];
-      for (std::size_t i = 0; i < count; i += lanes)
-        evaluate_group(law, batch, loads, &touching[i],
-                       static_cast<int>(std::min<std::size_t>(lanes, count - i)), averaged, general);
+      for (std::size_t i = 0; i < count; ++i) plan.seat(touching[i].pair);
+      std::size_t seated = 0;
+      while (seated < count && fill_lane(batch, touching[seated], groups, first)) ++seated;
+      for (std::size_t i = seated; i < count; i += lanes)
+        groups.emplace_back().take(batch, &touching[i],
+                                   static_cast<int>(std::min<std::size_t>(lanes, count - i)));
     }
   }
 
-  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly
-  /// came with an earlier pair, for pairs are sorted by it.
-  static void fetch_ahead(const BoundaryCorner* corner) {
-    for (int i = 0; i < 4; ++i) __builtin_prefetch(corner + i);
+  /// Calls general(pair) for the pairs that need the general path. Pairs are independent of each other, so
+  /// which of them share a group cannot be seen in the result.
+  template <class General>
+  void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LanePlan& plan,
+                std::vector<LaneGroup<corners>>& groups, const General& general) {
+    std::size_t done = evaluate_from(0, law, batch, loads, plan, groups, general);
+    if (!pairs_.empty()) {  // they may have parted
+      give_lanes(batch, loads, plan, groups, done);
+      done = evaluate_from(done, law, batch, loads, plan, groups, general);
+    }
+    if (!emptied_) return;
+    std::erase_if(groups, [](const LaneGroup<corners>& group) { return group.live == 0; });
+    emptied_ = false;
+  }
+
+ private:
+  static bool fill_lane(const ContactBatch& batch, const TouchingPair& touching,
+                        std::vector<LaneGroup<corners>>& groups, std::size_t first) {
+    return std::any_of(groups.begin() + static_cast<std::ptrdiff_t>(first), groups.end(),
+                       [&](LaneGroup<corners>& group) { return group.take_in(batch, touching); });
+  }
+
+  template <class General>
+  std::size_t evaluate_from(std::size_t first, const Law& law, const ContactBatch& batch,
+                            const ContactLoads& loads, LanePlan& plan,
+                            std::vector<LaneGroup<corners>>& groups, const General& general) {
+    for (std::size_t i = first; i < groups.size(); ++i) {
+      LaneGroup<corners>& group = groups[i];
+      const LaneBits refused = evaluate_group(law, batch, loads, group);
+      if (refused != 0) {
+        each_lane(refused, [&](int lane) {
+          plan.unseat(group.pair[lane]);
+          if ((group.unseen >> lane & 1) != 0) {
+            pairs_.push_back(group.pair[lane]);
+          } else {
+            general(group.pair[lane]);
+          }
+        });
+        group.live &= ~refused;
+        emptied_ = emptied_ || group.live == 0;
+      }
+      group.unseen = group.remembered = all_lanes;
+    }
+    return groups.size();
   }
 
   void add_touching(const BodyPair& pair, TouchingPair touching) {
@@ -130,63 +160,48 @@ class LaneContact {
     return sum;
   }
 
-  template <class General>
-  void evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
-                      const TouchingPair* touching, int count, bool averaged, const General& general) {
-    LaneGroup& g = group_;
-    g.collect(law, batch, touching, count);
+  /// Returns the lanes that it cannot serve.
+  LaneBits evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                          const LaneGroup<corners>& group) {
     // Triangles and quadrilaterals, which most blocks are, need no look at which lane has which side.
-    const auto evaluate_of = [&](auto sides, auto other_sides) {
-      evaluate_group_of<sides, other_sides>(batch, loads, averaged, general);
-    };
     if constexpr (corners == 4) {
-      using std::integral_constant;
-      constexpr integral_constant<int, 3> three;
-      constexpr integral_constant<int, 4> four;
-      const int sides = g.pieces[0].sides(), other_sides = g.pieces[1].sides();
-      if (sides == 4 && other_sides == 4) return evaluate_of(four, four);
-      if (sides == 3 && other_sides == 3) return evaluate_of(three, three);
-      if (sides == 3 && other_sides == 4) return evaluate_of(three, four);
-      if (sides == 4 && other_sides == 3) return evaluate_of(four, three);
+      const int sides = group.rows[0].sides, other_sides = group.rows[1].sides;
+      if (sides == 4 && other_sides == 4) return evaluate_group_of<4, 4>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 3) return evaluate_group_of<3, 3>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 4) return evaluate_group_of<3, 4>(law, batch, loads, group);
+      if (sides == 4 && other_sides == 3) return evaluate_group_of<4, 3>(law, batch, loads, group);
     }
-    evaluate_of(std::integral_constant<int, mixed>(), std::integral_constant<int, mixed>());
+    return evaluate_group_of<mixed, mixed>(law, batch, loads, group);
   }
 
-  template <int sides, int other_sides, class General>
-  void evaluate_group_of(const ContactBatch& batch, const ContactLoads& loads, bool averaged,
-                         const General& general) {
-    LaneGroup& g = group_;
-    piece_[0].template read<sides>(g.pieces[0]);
-    piece_[1].template read<other_sides>(g.pieces[1]);
+  template <int sides, int other_sides>
+  LaneBits evaluate_group_of(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                             const LaneGroup<corners>& g) {
+    piece_[0].template read<sides>(batch.boundaries.corner, g.rows[0],
+                                   {simd::load(g.offset_x[0]), simd::load(g.offset_y[0])});
+    piece_[1].template read<other_sides>(batch.boundaries.corner, g.rows[1],
+                                         {simd::load(g.offset_x[1]), simd::load(g.offset_y[1])});
+    const LaneParameters interface(law, batch.interfaces, g);
 
-    const Pack share = averaged ? 0.5 : 1.0;
-    roles_ = averaged ? 2 : 1;
+    const Pack share = g.averaged ? 0.5 : 1.0;
+    roles_ = g.averaged ? 2 : 1;
     Mask refused = piece_[0].degenerate | piece_[1].degenerate;
-    Pack area = 0.0;
-    const Pack stiffness = share * g.normal_stiffness;
-    cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, g.clear_depth);
-    if (averaged) cells_[1].template find<other_sides, sides>(piece_[1], piece_[0], stiffness, g.clear_depth);
+    const Pack stiffness = share * interface.normal_stiffness, clear_depth = simd::load(g.clear_depth);
+    cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, clear_depth);
+    if (g.averaged) cells_[1].template find<other_sides, sides>(piece_[1], piece_[0], stiffness, clear_depth);
     for (int role = 0; role < roles_; ++role) {
       refused = refused | cells_[role].deep | !(cells_[role].area > 0.0);
-      area = area + cells_[role].area;
     }
     find_tangent();
     Report report;
     report.stored = roles_ == 2 ? cells_[0].stored + cells_[1].stored : cells_[0].stored;
     report.penetration =
         roles_ == 2 ? simd::max(cells_[0].penetration, cells_[1].penetration) : cells_[0].penetration;
-    normal_damping(g, share, batch.dt, report);
-    if constexpr (Law::frictional) friction(g, batch, area, report);
-    const unsigned refused_bits = simd::bits(refused) & ((1u << g.count) - 1);
-    write<sides, other_sides>(loads, g, report, refused_bits);
-    for (int lane = 0; refused_bits >> lane != 0; ++lane) {
-      if ((refused_bits >> lane & 1) == 0) continue;
-      if (g.touching[lane].unseen()) {
-        pairs_.push_back(g.pair(lane));
-      } else {
-        general(g.pair(lane));
-      }
-    }
+    load_normally(g, interface, stiffness, share, batch.dt, report);
+    if constexpr (Law::frictional) friction<sides, other_sides>(g, interface, batch, report);
+    const LaneBits unserved = simd::bits(refused) & g.live;
+    write<sides, other_sides>(loads, g, report, g.live & ~unserved);
+    return unserved;
   }
 
   /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it. Of the arcs, which share
@@ -210,126 +225,127 @@ class LaneContact {
 
   struct Report {
     Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0;
-    Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, centre_x = 0.0, centre_y = 0.0, slip = 0.0;
+    Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
+    Packs2 foot;            ///< m, where it acts
     Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
   };
 
-  /// A dashpot along the normal of each cell, never pulling.
-  void normal_damping(const LaneGroup& g, Pack share, double dt, Report& report) {
-    if (!simd::any(g.normal_damping > 0.0)) return;
+  /// Puts the pressure on both pieces, and a dashpot along the normal of each cell.
+  void load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness, Pack share,
+                     double dt, Report& report) {
+    if (!simd::any(interface.normal_damping > 0.0)) {
+      each_cell([&](LaneCell& cell) { load_cell<false>(cell, stiffness, 0.0); });
+      return;
+    }
     const Pack viscosity = simd::only_where(
         contact_length_ > 0.0,
-        share * 2.0 * g.normal_damping * simd::sqrt(g.normal_stiffness * g.reduced_mass / contact_length_));
+        share * 2.0 * interface.normal_damping *
+            simd::sqrt(interface.normal_stiffness * simd::load(g.reduced_mass) / contact_length_));
     Pack power = 0.0;
-    for (int role = 0; role < roles_; ++role) {
-      for (LaneCell& cell : cells_[role].cells()) power = power + damp_cell(cell, viscosity);
-    }
+    each_cell([&](LaneCell& cell) { power = power + load_cell<true>(cell, stiffness, viscosity); });
     report.damping_power = power * dt;
   }
 
+  template <class Visit>
+  void each_cell(const Visit& visit) {
+    for (int role = 0; role < roles_; ++role) {
+      for (LaneCell& cell : cells_[role].cells()) visit(cell);
+    }
+  }
+
+  /// Eqs. 28–36: on the slave by the trapezoid rule, on the master through the foot. The dashpot never pulls.
   /// Returns its power.
-  static Pack damp_cell(LaneCell& cell, Pack viscosity) {
+  template <bool damped>
+  static Pack load_cell(LaneCell& cell, Pack stiffness, Pack viscosity) {
     LaneCorner* const master = cell.master;
     const Packs2 normal = master->normal();
     const Pack master_start = simd::dot(normal, master->velocity),
                master_change = simd::dot(normal, master[1].velocity) - master_start;
-    Pack on_start = 0.0, on_end = 0.0, power = 0.0;
+    Pack all = cell.load, on_end = cell.load * cell.lever, power = 0.0;
     for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
       LaneCorner* const slave = at->slave;
-      const Pack facing = simd::max(0.0, -simd::dot(slave->tangent, master->tangent));
+      const Pack pressed = stiffness * at->length;
+      const Pack press0 = pressed * at->start_depth, press1 = pressed * at->end_depth;
+      const Pack press_end = press0 * at->start + press1 * at->end, press_start = press0 + press1 - press_end;
+      const Packs2 inward{-slave->tangent.y, slave->tangent.x};
+      if constexpr (!damped) {
+        slave[0].push(press_start, inward);
+        slave[1].push(press_end, inward);
+        continue;
+      }
       const Pack slave_start = simd::dot(normal, slave->velocity),
                  slave_change = simd::dot(normal, slave[1].velocity) - slave_start;
       const Pack start = master_start - slave_start;
       const Pack rate0 = start + at->start_lever * master_change - at->start * slave_change;
       const Pack rate1 = start + at->end_lever * master_change - at->end * slave_change;
-      const Pack scale = viscosity * facing * at->length * (1.0 / 6.0);
-      const Pack force0 =
-          simd::only_where(at->valid, simd::max(scale * (rate0 + rate0 + rate1), -facing * at->start_load));
-      const Pack force1 =
-          simd::only_where(at->valid, simd::max(scale * (rate1 + rate1 + rate0), -facing * at->end_load));
-      const Pack both = force0 + force1, slave_end = force0 * at->start + force1 * at->end,
-                 master_end = force0 * at->start_lever + force1 * at->end_lever;
-      slave[0].push(both - slave_end, normal);
-      slave[1].push(slave_end, normal);
-      on_start = on_start + (both - master_end);
-      on_end = on_end + master_end;
-      power = power + simd::only_where(at->valid, force0 * rate0 + force1 * rate1);
+      const Pack scale = viscosity * at->facing * (1.0 / 6.0), most = -stiffness * at->facing;
+      const Pack force0 = simd::max(scale * (rate0 + rate0 + rate1), most * at->start_depth);
+      const Pack force1 = simd::max(scale * (rate1 + rate1 + rate0), most * at->end_depth);
+      const Pack both = force0 + force1, damp_end = force0 * at->start + force1 * at->end;
+      slave[0].load = slave[0].load + (press_start * inward + (both - damp_end) * normal);
+      slave[1].load = slave[1].load + (press_end * inward + damp_end * normal);
+      all = all + both;
+      on_end = on_end + (force0 * at->start_lever + force1 * at->end_lever);
+      power = power + (force0 * rate0 + force1 * rate1);
     }
-    master[0].push(-on_start, normal);
+    master[0].push(on_end - all, normal);
     master[1].push(-on_end, normal);
-    cell.load = simd::max(0.0, cell.load + on_start + on_end);
+    if constexpr (damped) cell.load = simd::max(0.0, all);
     return power;
   }
 
-  /// Shares a unit tangential force on piece 1 among the cells, which take it on both pieces at one common
-  /// point each. Returns the velocity of the slip through which it works.
-  Pack share_tangential_force(Pack load) {
-    const Pack inverse_load = simd::only_where(load > 0.0, 1.0 / load);
-    Pack slip = 0.0;
-    for (int role = 0; role < roles_; ++role) {
-      for (LaneCell& cell : cells_[role].cells()) {
-        const LaneCorner* const master = cell.master;
-        cell.shear = cell.load * inverse_load * (role == 0 ? 1.0 : -1.0);
-        const Pack start = simd::dot(tangent_, master[0].velocity),
-                   end = simd::dot(tangent_, master[1].velocity);
-        slip = slip - cell.shear * (start + cell.lever * (end - start));
-        const Packs2 foot = master->at + cell.lever * master->length * master->tangent;
-        const Pack scale = simd::only_where(cell.share > 0.0, cell.shear / cell.share);
-        for (LaneSegment* at = cell.begin; at != cell.end; ++at)
-          slip = slip + shear_at(foot, scale * at->share, *at);
-      }
-    }
-    return slip;
-  }
-
-  /// `size` along the tangent at `foot`, off the slave side. Returns the velocity it works through, times
-  /// size.
-  Pack shear_at(Packs2 foot, Pack size, LaneSegment& at) const {
-    const LaneCorner* const slave = at.slave;
-    const Packs2 from = foot - slave->at, change = slave[0].velocity - slave[1].velocity;
-    const Pack part = size / slave->length;
-    at.shear_end = part * simd::dot(slave->tangent, from);
-    at.shear_start = size - at.shear_end;
-    at.couple = -part * simd::cross(slave->tangent, from) * simd::dot(slave->tangent, tangent_);
-    return size * simd::dot(tangent_, slave->velocity) - at.shear_end * simd::dot(tangent_, change) +
-           at.couple * simd::dot(slave->normal(), change);
-  }
-
-  void apply_tangential_force(Pack size) {
-    const Packs2 force = size * tangent_;
-    for (int role = 0; role < roles_; ++role) {
-      for (LaneCell& cell : cells_[role].cells()) {
-        const Pack end = cell.shear * cell.lever;
-        cell.master[0].push(end - cell.shear, force);
-        cell.master[1].push(-end, force);
-        for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
-          const Packs2 couple = size * at->couple * at->slave->normal();
-          at->slave[0].load = at->slave[0].load + (at->shear_start * force + couple);
-          at->slave[1].load = at->slave[1].load + (at->shear_end * force - couple);
-        }
-      }
-    }
-  }
-
-  /// Eqs. 37–44: the slip is that through which the tangential loads work.
-  void friction(const LaneGroup& g, const ContactBatch& batch, Pack area, Report& report) {
+  /// N/m, on all cells.
+  Pack load_of_all() const {
     Pack load = 0.0;
     for (int role = 0; role < roles_; ++role) {
       for (const LaneCell& cell : cells_[role].cells()) load = load + cell.load;
     }
-    const Pack slip = share_tangential_force(load);
+    return load;
+  }
+
+  /// The feet of all cells by their loads; without load by their areas.
+  Packs2 foot_of_all(Pack load) const {
+    const auto mean = [&](Pack LaneCell::*weight, Pack total) {
+      Packs2 moment{0.0, 0.0};
+      for (int role = 0; role < roles_; ++role) {
+        for (const LaneCell& cell : cells_[role].cells()) moment = moment + cell.*weight * cell.foot();
+      }
+      return 1.0 / total * moment;
+    };
+    const Packs2 foot = mean(&LaneCell::load, load);
+    const Mask loaded = load > 0.0;
+    if (simd::bits(loaded) == all_lanes) return foot;
+    const Pack area = roles_ == 2 ? cells_[0].area + cells_[1].area : cells_[0].area;
+    return simd::select(loaded, foot, mean(&LaneCell::area, area));
+  }
+
+  /// Eqs. 37–44: the slip is that through which the tangential load works. Cells take it by their loads, on
+  /// both bodies at one common point each; of bodies that move by one affine map this is the same as all of
+  /// it at the foot of all.
+  template <int sides, int other_sides>
+  void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const ContactBatch& batch,
+                Report& report) {
+    const Pack load = load_of_all();
+    const Packs2 foot = foot_of_all(load);
+    Pack share[corners], other_share[corners];
+    piece_[0].template share_point<sides>(foot, share);
+    piece_[1].template share_point<other_sides>(foot, other_share);
+    const Pack slip = simd::dot(tangent_, piece_[1].template velocity_of<other_sides>(other_share) -
+                                              piece_[0].template velocity_of<sides>(share));
     const Pack increment = slip * batch.dt;
 
     Pack old[4];
     const double* history[lanes];
-    for (int lane = 0; lane < lanes; ++lane) history[lane] = batch.history + g.kept(lane);
+    for (int lane = 0; lane < lanes; ++lane)
+      history[lane] = batch.history + std::size_t{g.slot[lane]} * friction_doubles;
     simd::gather_rows(history, old);
-    for (Pack& value : old) value = simd::only_where(g.remembered, value);
+    const Mask remembered = simd::mask_of(g.remembered);
+    for (Pack& value : old) value = simd::only_where(remembered, value);
     const Pack old_elastic = old[0], old_applied = old[1], old_stored = old[2], old_length = old[3];
-    const Pack limit = g.friction * load;
+    const Pack limit = interface.friction * load;
     const Mask holds = (limit > 0.0) & (contact_length_ > 0.0);
     const Pack bound = batch.hold_stick ? Pack(1e300) : limit;
-    const Pack stiffness = g.tangential_stiffness * contact_length_;
+    const Pack stiffness = interface.tangential_stiffness * contact_length_;
     const Pack carried =
         simd::select(contact_length_ < old_length, old_elastic * (contact_length_ / old_length), old_elastic);
     const Pack trial = carried - stiffness * increment;
@@ -343,45 +359,40 @@ class LaneContact {
     report.slip_loss = -(old_applied + elastic) * increment * 0.5 - (report.spring_energy - old_stored);
 
     report.tangential = elastic;
-    if (simd::any(g.tangential_damping > 0.0)) {
-      const Pack viscosity = 2.0 * g.tangential_damping * simd::sqrt(stiffness * g.reduced_mass);
+    if (simd::any(interface.tangential_damping > 0.0)) {
+      const Pack viscosity =
+          2.0 * interface.tangential_damping * simd::sqrt(stiffness * simd::load(g.reduced_mass));
       const Pack damped = simd::clamp(elastic - viscosity * slip, -bound, bound);
-      report.tangential = simd::select(holds & !slips & (g.tangential_damping > 0.0), damped, elastic);
+      report.tangential =
+          simd::select(holds & !slips & (interface.tangential_damping > 0.0), damped, elastic);
       report.damping_power =
           report.damping_power + simd::max(0.0, -(report.tangential - elastic) * increment);
     }
-    apply_tangential_force(report.tangential);
-    const Pack x = roles_ == 2 ? cells_[0].moment_x + cells_[1].moment_x : cells_[0].moment_x;
-    const Pack y = roles_ == 2 ? cells_[0].moment_y + cells_[1].moment_y : cells_[0].moment_y;
-    const Pack inverse = 1.0 / area;
-    report.centre_x = x * inverse;
-    report.centre_y = y * inverse;
-  }
-
-  /// What TouchingPair::remembered() reads.
-  Pack remembered(const LaneGroup& g) const {
-    return TouchingPair::pattern_unit * cells_[0].pattern + g.starts;
+    const Packs2 force = report.tangential * tangent_;
+    piece_[0].template push_point<sides>(share, Pack(-1.0) * force);
+    piece_[1].template push_point<other_sides>(other_share, force);
+    report.foot = foot;
   }
 
   template <int sides, int other_sides>
-  void write(const ContactLoads& loads, const LaneGroup& g, const Report& report, unsigned refused) {
+  void write(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report, LaneBits wanted) {
     const auto close = [](LanePiece<corners>& piece, int after_last) {
       piece.corner[0].load = piece.corner[0].load + piece.corner[after_last].load;
     };
     close(piece_[0], corners_of(sides, corners));
     close(piece_[1], corners_of(other_sides, corners));
-    g.write_loads<corners, sides, other_sides>(loads, refused, piece_);
+    g.template write_loads<sides, other_sides>(loads, wanted, piece_);
     PairReport spare;
     double spare_history[friction_doubles];
     double *report_row[lanes], *row[lanes], *second_row[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
-      const bool wanted = lane < g.count && (refused >> lane & 1) == 0;
-      PairReport& to = wanted ? loads.pairs[g.pair(lane)] : spare;
+      const bool here = (wanted >> lane & 1) != 0;
+      PairReport& to = here ? loads.pairs[g.pair[lane]] : spare;
       to.contact_count = 1;
       to.gap = 0;
       report_row[lane] = &to.penetration;
       if constexpr (Law::frictional) {
-        row[lane] = wanted ? loads.history + g.kept(lane) : spare_history;
+        row[lane] = here ? loads.history + std::size_t{g.slot[lane]} * friction_doubles : spare_history;
         row[lane][8] = 0;
         second_row[lane] = row[lane] + 4;
       }
@@ -391,51 +402,45 @@ class LaneContact {
     if constexpr (Law::frictional) {
       const Pack first[4] = {report.elastic, report.applied, report.spring_energy, contact_length_};
       simd::scatter_rows(first, row);
-      const Pack second[4] = {report.centre_x, report.centre_y, report.slip, remembered(g)};
+      const Pack second[4] = {report.foot.x, report.foot.y, report.slip,
+                              TouchingPair::pattern_unit * cells_[0].pattern + simd::load(g.starts)};
       simd::scatter_rows(second, second_row);
     }
-    if (loads.reports != nullptr) write_contacts(loads, g, report, refused);
+    if (loads.reports != nullptr) write_contacts(loads, g, report, wanted);
   }
 
-  void write_contacts(const ContactLoads& loads, const LaneGroup& g, const Report& report,
-                      unsigned refused) const {
-    Pack load = 0.0;
-    Packs2 moment{0.0, 0.0}, normal{0.0, 0.0};
+  void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
+                      LaneBits wanted) const {
+    Packs2 normal{0.0, 0.0};
     for (int role = 0; role < roles_; ++role) {
-      for (const LaneCell& cell : cells_[role].cells()) {
-        const LaneCorner& master = *cell.master;
-        load = load + cell.load;
-        moment = moment + cell.load * (master.at + cell.lever * master.length * master.tangent);
-        normal = normal + (role == 0 ? cell.load : -cell.load) * master.normal();
-      }
+      for (const LaneCell& cell : cells_[role].cells())
+        normal = normal + (role == 0 ? cell.load : -cell.load) * cell.master->normal();
     }
-    const Pack side = simd::select(simd::nonzero(g.swapped), -1.0, 1.0), inverse = 1.0 / load;
-    const Mask loaded = load > 0.0;
-    const Pack x = simd::select(loaded, moment.x * inverse, cells_[0].moment_x / cells_[0].area),
-               y = simd::select(loaded, moment.y * inverse, cells_[0].moment_y / cells_[0].area);
+    const Packs2 foot = foot_of_all(load_of_all());
+    const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
     alignas(64) double value[8][lanes];
-    simd::store(x, value[0]);
-    simd::store(y, value[1]);
+    simd::store(foot.x, value[0]);
+    simd::store(foot.y, value[1]);
     simd::store(side * normal.x, value[2]);
     simd::store(side * normal.y, value[3]);
     simd::store(side * report.tangential * tangent_.x, value[4]);
     simd::store(side * report.tangential * tangent_.y, value[5]);
     simd::store(report.penetration, value[6]);
     simd::store(simd::abs(report.slip), value[7]);
-    for (int lane = 0; lane < g.count; ++lane) {
-      if ((refused >> lane & 1) != 0) continue;
-      loads.reports[g.pairs.at[lane]->slot_start] = {value[0][lane], value[1][lane], value[2][lane],
-                                                     value[3][lane], value[4][lane], value[5][lane],
-                                                     value[6][lane], value[7][lane]};
-    }
+    each_lane(wanted, [&](int lane) {
+      loads.reports[g.slot[lane]] = {value[0][lane], value[1][lane], value[2][lane], value[3][lane],
+                                     value[4][lane], value[5][lane], value[6][lane], value[7][lane]};
+    });
   }
+
+  static constexpr std::size_t spare_groups = 16;  ///< of all shapes, with lanes left over
 
   std::vector<std::uint32_t> pairs_;
   std::vector<TouchingPair> touching_[2];  ///< [both roles count half]
   std::size_t touching_count_[2] = {0, 0};
   std::vector<TouchingPair> sorted_;
   LaneSieve<corners> sieve_;
-  LaneGroup group_;
+  bool emptied_ = false;  ///< a group has lost its last lane
   LanePiece<corners> piece_[2];
   LaneCells<corners> cells_[2];
   int roles_ = 1;

@@ -2,8 +2,10 @@
 
 #include <talus/contact_model.hpp>
 #include <talus/overlap/cell_loads.hpp>
-#include <talus/overlap/friction.hpp>
 #include <talus/overlap/lane_piece.hpp>
+
+#include <algorithm>
+#include <bit>
 
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
@@ -31,99 +33,163 @@ struct TouchingPair {
   }
   std::uint32_t pattern() const { return ((code - 1) & ~unseen_bit & ~(3 * shape_unit)) >> 6; }
   std::uint32_t shape() const { return code / shape_unit & 3; }
+  std::uint32_t start(int body) const { return (code - 1) >> 3 * body & 7; }
   bool unseen() const { return code >= unseen_bit; }
+  bool averaged(const ContactBatch& batch) const { return batch.pairs[pair].master_share == 0.5; }
 };
 
-/// The pairs of a group, a lane each, as the host's arrays know them. Piece 0 is the master, where only one
-/// is.
+using LaneBits = std::uint32_t;  ///< bit i says lane i
+inline constexpr LaneBits all_lanes = (1u << lanes) - 1;
+
+/// Calls visit(lane) for the lanes of `bits`, rising.
+template <class Visit>
+inline void each_lane(LaneBits bits, const Visit& visit) {
+  for (int lane = 0; bits >> lane != 0; ++lane) {
+    if ((bits >> lane & 1) != 0) visit(lane);
+  }
+}
+
+/// Pairs that go through the lanes together, a lane each, for as long as the host's arrays stay as they are.
+/// Piece 0 is the master, where only one is.
+template <int corners>
 struct LaneGroup {
-  const TouchingPair* touching;  ///< [lanes]; those from `count` on are there to fill the lanes
-  int count;
-  LanePairs pairs;
-  Numbers swapped;  ///< not 0 where piece 0 is that of body b
-  LanePieces pieces[2];
-  Pack reduced_mass, clear_depth;
-  Pack normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping;
-  Pack starts;      ///< code without pattern, as TouchingPair::remembered() reads it
-  Mask remembered;  ///< in contact a step ago
+  LaneBits live;        ///< lanes that stand for a pair
+  LaneBits unseen;      ///< nobody has looked in this step whether the pieces overlap
+  LaneBits remembered;  ///< in contact a step ago
+  LaneBits swapped;     ///< piece 0 is that of body b
+  bool averaged;        ///< both roles count half
+  bool alike;           ///< all have one interface
+  LaneRows<corners> rows[2];
+  std::uint32_t pair[lanes];                                  ///< in the batch
+  std::uint32_t slot[lanes];                                  ///< of its contact
+  std::uint32_t load_start[2][lanes];                         ///< [piece] first entry in ContactLoads::fx
+  std::uint32_t interface_row[lanes];                         ///< Interfaces::row
+  alignas(64) double offset_x[2][lanes], offset_y[2][lanes];  ///< m, of pieces
+  alignas(64) double reduced_mass[lanes], clear_depth[lanes];
+  alignas(64) double starts[lanes];  ///< code without pattern, as TouchingPair::remembered() reads it
 
-  std::uint32_t pair(int lane) const { return touching[lane].pair; }
-  /// Where the history of a lane is, in that of all.
-  std::size_t kept(int lane) const { return std::size_t{pairs.at[lane]->slot_start} * friction_doubles; }
+  /// Fills all lanes, those beyond the `count`-th pair with the first.
+  void take(const ContactBatch& batch, const TouchingPair* touching, int count) {
+    live = unseen = remembered = swapped = 0;
+    averaged = touching[0].averaged(batch);
+    for (int lane = 0; lane < lanes; ++lane) place(batch, touching[lane < count ? lane : 0], lane);
+    live = (1u << count) - 1;
+    compare();
+  }
 
-  template <class Law>
-  void collect(const Law& law, const ContactBatch& batch, const TouchingPair* group, int group_count) {
-    touching = group;
-    count = group_count;
-    const double* place[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      pairs.at[lane] = batch.pairs + pair(lane);
-      place[lane] = &pairs.at[lane]->offset_x;
+  /// Puts a pair into a lane that stands for none, if it is of the shape of the others.
+  bool take_in(const ContactBatch& batch, const TouchingPair& touching) {
+    if (live == all_lanes || touching.averaged(batch) != averaged) return false;
+    const BodyPair& at = batch.pairs[touching.pair];
+    for (int p = 0; p < 2; ++p) {
+      if (rows[p].sides != mixed && at.plain_corners[at.master_share == 0 ? 1 - p : p] != rows[p].sides)
+        return false;
     }
-    remembered = simd::nonzero(pairs.contact_count());
-
-    Numbers code;
-    std::memcpy(&code, touching, sizeof code);
-    code = (code >> 32) - 1;
-    starts = simd::as_pack((code & 63) + 1);
-    const LanePairs::FirstCorners first = pairs.first_corners();
-    swapped = pairs.read(offsetof(BodyPair, master_share)) == 0 ? ~Numbers{} : Numbers{};
-    const auto swap = [&](const Numbers& p, const Numbers& q) { return (p & ~swapped) | (q & swapped); };
-    const Numbers start_a = (code & 7) * sizeof(BoundaryCorner),
-                  start_b = (code >> 3 & 7) * sizeof(BoundaryCorner);
-    pieces[0].first = swap(first.a, first.b);
-    pieces[1].first = swap(first.b, first.a);
-    pieces[0].start = swap(start_a, start_b);
-    pieces[1].start = swap(start_b, start_a);
-    const LanePairs::CornerCounts counts = pairs.corner_counts();
-    pieces[0].count = swap(counts.a, counts.b);
-    pieces[1].count = swap(counts.b, counts.a);
-    pieces[0].corner = pieces[1].corner = batch.boundaries.corner;
-
-    Pack placed[4];
-    simd::gather_rows(place, placed);
-    const Mask of_b = simd::nonzero(swapped);
-    const Packs2 offset{placed[0], placed[1]}, none{0.0, 0.0};
-    pieces[0].offset = simd::select(of_b, offset, none);
-    pieces[1].offset = simd::select(of_b, none, offset);
-    reduced_mass = placed[2];
-    clear_depth = placed[3];
-    read_parameters(law, batch.interfaces);
+    place(batch, touching, std::countr_one(live));
+    compare();
+    return true;
   }
 
-  /// 0: piece p of a lane is that of body a, 1: of b.
-  int body(int p, int lane) const { return swapped[lane] != 0 ? 1 - p : p; }
-  /// Of a pair of bodies that are one piece each, the first has its loads before those of the second.
-  std::uint32_t load_start(int p, int lane) const {
-    const BodyPair& pair_here = *pairs.at[lane];
-    return pair_here.load_start + (body(p, lane) == 0 ? 0U : pair_here.plain_corners[0]);
-  }
-
-  /// Loads of the lanes on their corners, from those on both pieces.
-  template <int corners, int sides, int other_sides>
-  void write_loads(const ContactLoads& loads, unsigned refused, const LanePiece<corners>* piece) const {
+  /// Loads of the lanes of `wanted` on their corners, from those on both pieces.
+  template <int sides, int other_sides>
+  void write_loads(const ContactLoads& loads, LaneBits wanted, const LanePiece<corners>* piece) const {
     if constexpr (sides != mixed) {
-      if (refused == 0 && count == lanes) {
+      if (wanted == all_lanes) {
         write_rows<sides>(loads, 0, piece[0].corner);
         write_rows<other_sides>(loads, 1, piece[1].corner);
         return;
       }
     }
-    write_any<corners_of(sides, corners)>(loads, 0, refused, piece[0].corner);
-    write_any<corners_of(other_sides, corners)>(loads, 1, refused, piece[1].corner);
+    write_any<corners_of(sides, corners)>(loads, 0, wanted, piece[0].corner);
+    write_any<corners_of(other_sides, corners)>(loads, 1, wanted, piece[1].corner);
   }
 
  private:
-  template <class Law>
-  void read_parameters(const Law& law, const Interfaces& interfaces) {
+  void place(const ContactBatch& batch, const TouchingPair& touching, int lane) {
+    const BodyPair& at = batch.pairs[touching.pair];
+    const bool swap = at.master_share == 0;
+    const auto mark = [&](LaneBits& bits, bool is_so) {
+      bits = (bits & ~(1u << lane)) | (is_so ? 1u : 0u) << lane;
+    };
+    mark(live, true);
+    mark(unseen, touching.unseen());
+    mark(remembered, at.contact_count != 0);
+    mark(swapped, swap);
+    pair[lane] = touching.pair;
+    slot[lane] = at.slot_start;
+    interface_row[lane] = at.interface_row;
+    for (int body = 0; body < 2; ++body) {
+      const int piece = swap ? 1 - body : body;
+      // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
+      load_start[piece][lane] = at.load_start + (body == 0 ? 0U : at.plain_corners[0]);
+      rows[piece].place(lane, at.corner_start[body], at.plain_corners[body], touching.start(body));
+      offset_x[piece][lane] = body == 0 ? 0 : at.offset_x;
+      offset_y[piece][lane] = body == 0 ? 0 : at.offset_y;
+    }
+    reduced_mass[lane] = at.reduced_mass;
+    clear_depth[lane] = at.clear_depth;
+    starts[lane] = 1 + touching.start(0) + 8 * touching.start(1);
+  }
+
+  void compare() {
+    for (LaneRows<corners>& piece : rows) {
+      piece.compare();
+      piece.mark_real();
+    }
+    alike = std::all_of(interface_row, interface_row + lanes,
+                        [&](std::uint32_t row) { return row == interface_row[0]; });
+  }
+
+  /// All lanes are wanted and have three or four corners.
+  template <int sides>
+  void write_rows(const ContactLoads& loads, int p, const LaneCorner* corner) const {
+    double *x[lanes], *y[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      x[lane] = loads.fx + load_start[p][lane];
+      y[lane] = loads.fy + load_start[p][lane];
+    }
+    const Pack load_x[4] = {corner[0].load.x, corner[1].load.x, corner[2].load.x, corner[3].load.x},
+               load_y[4] = {corner[0].load.y, corner[1].load.y, corner[2].load.y, corner[3].load.y};
+    simd::scatter_turned_rows<sides>(load_x, rows[p].start, x);
+    simd::scatter_turned_rows<sides>(load_y, rows[p].start, y);
+  }
+
+  /// Load that came to the repeated first corner of a piece with fewer corners goes to that corner.
+  template <int most>
+  void write_any(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* from) const {
+    alignas(64) double x[most][lanes], y[most][lanes];
+    for (int i = 0; i < most; ++i) {
+      simd::store(from[i].load.x, x[i]);
+      simd::store(from[i].load.y, y[i]);
+    }
+    each_lane(wanted, [&](int lane) {
+      const int size = rows[p].count[lane];
+      for (int i = size; i < most; ++i) {
+        x[0][lane] += x[i][lane];
+        y[0][lane] += y[i][lane];
+      }
+      double *const to_x = loads.fx + load_start[p][lane], *const to_y = loads.fy + load_start[p][lane];
+      int corner = rows[p].start[lane];
+      for (int i = 0; i < size; ++i) {
+        to_x[corner] = x[i][lane];
+        to_y[corner] = y[i][lane];
+        if (++corner == size) corner = 0;
+      }
+    });
+  }
+};
+
+/// What a law reads of the interfaces of a group.
+struct LaneParameters {
+  Pack normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping;
+
+  template <class Law, int corners>
+  LaneParameters(const Law& law, const Interfaces& interfaces, const LaneGroup<corners>& group) {
+    const bool alike = group.alike;
     alignas(64) double value[5][lanes];
-    std::uint32_t other_row = 0;
-    for (const BodyPair* at : pairs.at) other_row |= at->interface_row ^ pairs.at[0]->interface_row;
-    const bool alike = other_row == 0;
-    const int different = alike ? 1 : lanes;
-    for (int lane = 0; lane < different; ++lane) {
+    for (int lane = 0; lane < (alike ? 1 : lanes); ++lane) {
       const InterfaceParameters parameters =
-          law.interface(interfaces.value + pairs.at[lane]->interface_row * interfaces.parameter_count);
+          law.interface(interfaces.value + group.interface_row[lane] * interfaces.parameter_count);
       value[0][lane] = parameters.normal_stiffness;
       value[1][lane] = parameters.tangential_stiffness;
       value[2][lane] = parameters.friction;
@@ -136,50 +202,6 @@ struct LaneGroup {
     friction = read(2);
     normal_damping = read(3);
     tangential_damping = read(4);
-  }
-
-  /// All lanes are there and have three or four corners.
-  template <int sides>
-  void write_rows(const ContactLoads& loads, int p, const LaneCorner* corner) const {
-    double *x[lanes], *y[lanes];
-    const Numbers after = p == 0 ? swapped : ~swapped;
-    const Numbers begin =
-        (pairs.read(offsetof(BodyPair, load_start)) & 0xFFFFFFFF) + (after & pieces[1 - p].count);
-    for (int lane = 0; lane < lanes; ++lane) {
-      x[lane] = loads.fx + begin[lane];
-      y[lane] = loads.fy + begin[lane];
-    }
-    const Numbers start = pieces[p].start_corner();
-    const Pack load_x[4] = {corner[0].load.x, corner[1].load.x, corner[2].load.x, corner[3].load.x},
-               load_y[4] = {corner[0].load.y, corner[1].load.y, corner[2].load.y, corner[3].load.y};
-    simd::scatter_turned_rows<sides>(load_x, start, x);
-    simd::scatter_turned_rows<sides>(load_y, start, y);
-  }
-
-  /// Load that came to the repeated first corner of a piece with fewer corners goes to that corner.
-  template <int corners>
-  void write_any(const ContactLoads& loads, int p, unsigned refused, const LaneCorner* from) const {
-    alignas(64) double x[corners][lanes], y[corners][lanes];
-    for (int i = 0; i < corners; ++i) {
-      simd::store(from[i].load.x, x[i]);
-      simd::store(from[i].load.y, y[i]);
-    }
-    const Numbers start = pieces[p].start_corner();
-    for (int lane = 0; lane < count; ++lane) {
-      if ((refused >> lane & 1) != 0) continue;
-      const int size = pairs.at[lane]->plain_corners[body(p, lane)];
-      for (int i = size; i < corners; ++i) {
-        x[0][lane] += x[i][lane];
-        y[0][lane] += y[i][lane];
-      }
-      const std::uint32_t begin = load_start(p, lane);
-      auto corner = static_cast<std::uint32_t>(start[lane]);
-      for (int i = 0; i < size; ++i) {
-        loads.fx[begin + corner] = x[i][lane];
-        loads.fy[begin + corner] = y[i][lane];
-        if (++corner == static_cast<std::uint32_t>(size)) corner = 0;
-      }
-    }
   }
 };
 

@@ -3,7 +3,6 @@
 #include <talus/contact_model.hpp>
 #include <talus/simd/pack.hpp>
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -13,46 +12,8 @@ inline namespace TALUS_SIMD_LEVEL {
 
 using simd::lanes;
 using simd::Mask;
-using simd::Numbers;
 using simd::Pack;
 using simd::Packs2;
-
-/// A pair of plain bodies in each lane.
-struct LanePairs {
-  const BodyPair* at[lanes];
-
-  /// Eight bytes of each, from `offset` bytes after its beginning.
-  Numbers read(std::size_t offset) const {
-    Numbers all;
-    for (int lane = 0; lane < lanes; ++lane) {
-      std::uint64_t number;
-      std::memcpy(&number, reinterpret_cast<const char*>(at[lane]) + offset, sizeof number);
-      all[lane] = number;
-    }
-    return all;
-  }
-
-  /// Bytes from Boundaries::corner to the first corner of body a and of body b.
-  struct FirstCorners {
-    Numbers a, b;
-  };
-  FirstCorners first_corners() const {
-    const Numbers both = read(offsetof(BodyPair, corner_start));
-    return {(both & 0xFFFFFFFF) * sizeof(BoundaryCorner), (both >> 32) * sizeof(BoundaryCorner)};
-  }
-
-  /// How many corners body a and body b have.
-  struct CornerCounts {
-    Numbers a, b;
-  };
-  CornerCounts corner_counts() const {
-    const Numbers both = read(offsetof(BodyPair, contact_count)) >> 32;
-    return {both & 0xFFFF, both >> 16};
-  }
-  Numbers contact_count() const { return read(offsetof(BodyPair, contact_count)) & 0xFFFFFFFF; }
-};
-static_assert(std::endian::native == std::endian::little, "the low half of a number comes first");
-static_assert(offsetof(BodyPair, plain_corners) == offsetof(BodyPair, contact_count) + 4);
 
 /// In place of a number of sides that all lanes have.
 inline constexpr int mixed = 0;
@@ -61,46 +22,51 @@ constexpr int corners_of(int sides, int corners) {
   return sides == mixed ? corners : sides;
 }
 
-/// One piece in each lane, as the host's arrays know it. Where lanes are mixed, a piece with fewer corners
-/// than the widest begins again after its last: sides that own nothing.
-struct LanePieces {
-  const BoundaryCorner* corner;  ///< Boundaries::corner
-  Numbers first;                 ///< bytes from there to its first corner
-  Numbers start;                 ///< bytes from its first corner to the one called 0 here
-  Numbers count;                 ///< of corners
-  Packs2 offset;                 ///< m, added to all places
+/// Where the corners of a piece are in the host's array, a piece in each lane. Where lanes are mixed, a piece
+/// with fewer corners than the widest begins again after its last: sides that own nothing.
+template <int corners>
+struct LaneRows {
+  std::uint32_t row[corners][lanes];  ///< doubles from Boundaries::corner on
+  std::uint32_t real[corners];        ///< which lanes have this side, as bits, once marked
+  std::uint8_t start[lanes];          ///< the corner of the piece that is called 0 here
+  std::uint8_t count[lanes];          ///< of corners
+  int sides;                          ///< 3 or 4 if all lanes have so many, else mixed
 
-  /// Which corner is called 0 here.
-  Numbers start_corner() const { return start / sizeof(BoundaryCorner); }
-
-  /// The number of sides, if all lanes have 3 or all have 4.
-  int sides() const {
-    const std::uint64_t any = count[0];
-    return any > 4 || simd::any(simd::nonzero(count ^ any)) ? mixed : static_cast<int>(any);
-  }
-
-  /// Calls visit(i, bytes of each lane) for `corners` corners in turn.
-  template <int corners, int sides, class Visit>
-  void each_corner(const Visit& visit) const {
-    constexpr std::uint64_t step = sizeof(BoundaryCorner);
-    const Numbers end = sides == mixed ? count * step : Numbers{} + sides * step;
-    Numbers turn = start;
-    for (int i = 0; i < corners; ++i) {
-      const Numbers bytes = first + turn;
-      visit(i, bytes);
-      turn += step;
-      turn = turn == end ? Numbers{} : turn;
+  /// The piece whose corner 0 is `first` of all.
+  void place(int lane, std::uint32_t first, std::uint32_t corner_count, std::uint32_t start_corner = 0) {
+    constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double);
+    start[lane] = static_cast<std::uint8_t>(start_corner);
+    count[lane] = static_cast<std::uint8_t>(corner_count);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      std::uint32_t turn = start_corner + i;
+      turn -= turn >= corner_count ? corner_count : 0;
+      while (corners > 4 && turn >= corner_count) turn -= corner_count;  // no piece has less than three
+      row[i][lane] = (first + turn) * doubles;
     }
   }
 
-  /// Place and tangent of a corner, then, if `whole`, velocity and length.
+  /// To be called once all lanes have their place.
+  void compare() {
+    sides = count[0] > 4 ? mixed : count[0];
+    for (const std::uint8_t other : count) sides = other == count[0] ? sides : mixed;
+  }
+
+  /// To be called where the pieces of a pair are not all alike.
+  void mark_real() {
+    for (int i = 0; i < corners; ++i) {
+      real[i] = 0;
+      for (int lane = 0; lane < lanes; ++lane) real[i] |= (i < count[lane] ? 1U : 0U) << lane;
+    }
+  }
+
+  /// Place and tangent of corner i, then, if `whole`, velocity and length.
   template <bool whole>
-  void read_rows(const Numbers& bytes, Pack* to) const {
-    const double* row[lanes];
+  void read(const BoundaryCorner* corner, int i, Pack* to) const {
+    const double* from[lanes];
     for (int lane = 0; lane < lanes; ++lane)
-      row[lane] = reinterpret_cast<const double*>(reinterpret_cast<const char*>(corner) + bytes[lane]);
-    simd::gather_rows(row, to);
-    if constexpr (whole) simd::gather_rows(row, to + 4, 4);
+      from[lane] = reinterpret_cast<const double*>(corner) + row[i][lane];
+    simd::gather_rows(from, to);
+    if constexpr (whole) simd::gather_rows(from, to + 4, 4);
   }
 };
 static_assert(offsetof(BoundaryCorner, vx) == 4 * sizeof(double));
@@ -126,11 +92,11 @@ struct LanePiece {
   Packs2 last_tangent;     ///< of the side that ends at corner 0
   Mask degenerate;         ///< has a side without length
 
-  /// Everything; no loads act.
+  /// Everything; no loads act. `offset`, m, is added to all places.
   template <int sides>
-  void read(const LanePieces& pieces) {
+  void read(const BoundaryCorner* from, const LaneRows<corners>& rows, Packs2 offset) {
     constexpr int last = corners_of(sides, corners);
-    read_each<sides, true>(pieces);
+    read_each<sides, true>(from, rows, offset);
     Pack shortest = corner[0].length;
     for (int i = 1; i < last; ++i) shortest = simd::min(shortest, corner[i].length);
     degenerate = shortest <= 0.0;
@@ -146,30 +112,72 @@ struct LanePiece {
     }
   }
 
+  /// [corner] shares by which a point is a mean of corners, those of the largest triangle of the fan from
+  /// corner 0: exact for whatever is affine over the piece, as the motion of plain bodies is.
+  template <int sides>
+  void share_point(Packs2 point, Pack* share) const {
+    constexpr int count = corners_of(sides, corners);
+    Packs2 first = corner[1].at - corner[0].at, edge[2] = {first, corner[2].at - corner[0].at};
+    Packs2 second = edge[1];
+    Pack largest = simd::cross(first, second), number = 1.0;
+    for (int i = 2; i + 1 < count; ++i) {
+      edge[0] = edge[1];
+      edge[1] = corner[i + 1].at - corner[0].at;
+      const Pack area = simd::cross(edge[0], edge[1]);
+      const Mask larger = area > largest;
+      largest = simd::select(larger, area, largest);
+      first = simd::select(larger, edge[0], first);
+      second = simd::select(larger, edge[1], second);
+      number = simd::select(larger, static_cast<double>(i), number);
+    }
+    const Packs2 from = point - corner[0].at;
+    const Pack inverse = 1.0 / largest;
+    const Pack of_first = simd::cross(from, second) * inverse, of_second = simd::cross(first, from) * inverse;
+    share[0] = 1.0 - of_first - of_second;
+    if constexpr (count == 3) {
+      share[1] = of_first;
+      share[2] = of_second;
+    } else {
+      share[1] = simd::only_where(number == 1.0, of_first);
+      for (int i = 2; i < count; ++i)
+        share[i] = simd::select(number == static_cast<double>(i), of_first,
+                                simd::only_where(number == static_cast<double>(i - 1), of_second));
+    }
+  }
+
+  template <int sides>
+  Packs2 velocity_of(const Pack* share) const {
+    Packs2 sum = share[0] * corner[0].velocity;
+    for (int i = 1; i < corners_of(sides, corners); ++i) sum = sum + share[i] * corner[i].velocity;
+    return sum;
+  }
+
+  template <int sides>
+  void push_point(const Pack* share, Packs2 force) {
+    for (int i = 0; i < corners_of(sides, corners); ++i) corner[i].push(share[i], force);
+  }
+
   /// Where the corners are and how the sides run, no more.
   template <int sides>
-  void read_shape(const LanePieces& pieces) {
-    read_each<sides, false>(pieces);
+  void read_shape(const BoundaryCorner* from, const LaneRows<corners>& rows, Packs2 offset) {
+    read_each<sides, false>(from, rows, offset);
   }
 
  private:
   template <int sides, bool whole>
-  void read_each(const LanePieces& pieces) {
-    pieces.each_corner<corners_of(sides, corners), sides>([&](int i, const Numbers& bytes) {
+  void read_each(const BoundaryCorner* from, const LaneRows<corners>& rows, Packs2 offset) {
+    if constexpr (sides == mixed) std::memcpy(real, rows.real, sizeof real);
+    for (int i = 0; i < corners_of(sides, corners); ++i) {
       Pack row[8];
-      pieces.read_rows<whole>(bytes, row);
-      corner[i].at = Packs2{row[0], row[1]} + pieces.offset;
+      rows.template read<whole>(from, i, row);
+      corner[i].at = Packs2{row[0], row[1]} + offset;
       corner[i].tangent = {row[2], row[3]};
       if constexpr (whole) {
         corner[i].velocity = {row[4], row[5]};
         corner[i].length = row[6];
         corner[i].load = {0.0, 0.0};
       }
-      if constexpr (sides == mixed) {
-        const Numbers here = Numbers{} + static_cast<std::uint64_t>(i);
-        real[i] = simd::bits(simd::nonzero(here < pieces.count ? ~Numbers{} : Numbers{}));
-      }
-    });
+    }
   }
 };
 

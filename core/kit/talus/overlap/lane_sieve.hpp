@@ -15,24 +15,18 @@ class LaneSieve {
 
   /// `numbers` of pairs in the batch; lanes from `count` on repeat the first.
   void look(const ContactBatch& batch, const std::uint32_t* numbers, int count) {
-    LanePairs pairs;
-    LanePieces pieces[2];
+    LaneRows<corners> rows[2];
     const double* place[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
-      pairs.at[lane] = batch.pairs + numbers[lane < count ? lane : 0];
-      place[lane] = &pairs.at[lane]->offset_x;
+      const BodyPair& pair = batch.pairs[numbers[lane < count ? lane : 0]];
+      for (int body = 0; body < 2; ++body)
+        rows[body].place(lane, pair.corner_start[body], pair.plain_corners[body]);
+      place[lane] = &pair.offset_x;
     }
-    const LanePairs::FirstCorners first = pairs.first_corners();
-    pieces[0].first = first.a;
-    pieces[1].first = first.b;
-    const LanePairs::CornerCounts counts = pairs.corner_counts();
-    pieces[0].count = counts.a;
-    pieces[1].count = counts.b;
-    pieces[0].start = pieces[1].start = Numbers{};
-    pieces[0].corner = pieces[1].corner = batch.boundaries.corner;
-    pieces[0].offset = {0.0, 0.0};
-    pieces[1].offset = simd::gather_points(place);
-    simd::store(-least_reach_of_both(pieces), gap);
+    for (LaneRows<corners>& piece : rows) piece.compare();
+    const BoundaryCorner* const corner = batch.boundaries.corner;
+    const Packs2 offset = simd::gather_points(place);
+    simd::store(-least_reach_of_both(corner, rows, offset), gap);
   }
 
   /// The corner before the side of a body that faces the other.
@@ -42,16 +36,18 @@ class LaneSieve {
   }
 
  private:
-  Pack least_reach_of_both(const LanePieces* pieces) {
+  Pack least_reach_of_both(const BoundaryCorner* corner, LaneRows<corners>* rows, Packs2 offset) {
     if constexpr (corners == 4) {
-      if (pieces[0].sides() == 4 && pieces[1].sides() == 4) return least_reach_of_all<4>(pieces);
+      if (rows[0].sides == 4 && rows[1].sides == 4) return least_reach_of_all<4>(corner, rows, offset);
     }
-    return least_reach_of_all<mixed>(pieces);
+    for (int p = 0; p < 2; ++p) rows[p].mark_real();
+    return least_reach_of_all<mixed>(corner, rows, offset);
   }
 
   template <int sides>
-  Pack least_reach_of_all(const LanePieces* pieces) {
-    for (int p = 0; p < 2; ++p) piece_[p].template read_shape<sides>(pieces[p]);
+  Pack least_reach_of_all(const BoundaryCorner* corner, const LaneRows<corners>* rows, Packs2 offset) {
+    piece_[0].template read_shape<sides>(corner, rows[0], {0.0, 0.0});
+    piece_[1].template read_shape<sides>(corner, rows[1], offset);
     return simd::min(least_reach<sides>(0), least_reach<sides>(1));
   }
 

@@ -38,6 +38,14 @@ class Piece {
   /// A side that carries load: boundary, with a length.
   bool real(std::uint32_t side) const { return !is_cut(side) && length(side) > 0; }
 
+  /// Whether all its sides are boundary: a body of its own, which moves by one affine map.
+  bool whole() const {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      if (is_cut(i)) return false;
+    }
+    return true;
+  }
+
   /// Distance of a point behind the line of a side, m; positive inside.
   double depth(std::uint32_t side, Point p) const { return cross(tangent(side), p - at(side)); }
   /// Position of the foot of a point along a side: 0 at its start, 1 at its end.
@@ -49,6 +57,35 @@ class Piece {
     const double couple = depth(side, point) * cross(-1.0 * normal(side), direction);
     return dot(direction, velocity_at(side, lever(side, point))) -
            couple / length(side) * dot(normal(side), stretch);
+  }
+  /// A point as a mean of corners 0, i and i + 1, those of the largest triangle of the fan from corner 0:
+  /// exact for what is affine over the piece.
+  struct Shares {
+    std::uint32_t i;
+    double of_0, of_i, of_next;
+  };
+  Shares shares_of(Point point) const {
+    Shares shares{0, 0, 0, 0};
+    double largest = 0;
+    const auto edge = [&](std::uint32_t i) { return at(i) - at(0); };
+    for (std::uint32_t i = 1; i + 1 < size_; ++i) {
+      const double area = cross(edge(i), edge(i + 1));
+      if (!(area > largest)) continue;
+      largest = area;
+      shares.i = i;
+    }
+    if (shares.i == 0) return {1, 1, 0, 0};
+    const Point from = point - at(0);
+    shares.of_i = cross(from, edge(shares.i + 1)) / largest;
+    shares.of_next = cross(edge(shares.i), from) / largest;
+    shares.of_0 = 1 - shares.of_i - shares.of_next;
+    return shares;
+  }
+  /// Rate at which a force of 1 N/m in `direction` works that LoadSink::inside puts at a point.
+  double velocity_inside(std::uint32_t side, Point point, Point direction) const {
+    if (!whole()) return working_velocity(side, point, direction);
+    const Shares s = shares_of(point);
+    return dot(direction, s.of_0 * velocity(0) + s.of_i * velocity(s.i) + s.of_next * velocity(s.i + 1));
   }
   Point velocity_at(std::uint32_t side, double lever_arm) const {
     return (1 - lever_arm) * velocity(side) + lever_arm * velocity(next(side));
@@ -101,6 +138,18 @@ struct LoadSink {
     const double height = piece.depth(side, point);
     const Point inward = -1.0 * piece.normal(side);
     couple(piece, side, height * cross(inward, force));
+  }
+
+  /// A force at a point: of the material there, where the piece is a body of its own; else as at_point().
+  void inside(const Piece& piece, std::uint32_t side, Point point, Point force) const {
+    if (!piece.whole()) {
+      at_point(piece, side, point, force);
+      return;
+    }
+    const Piece::Shares s = piece.shares_of(point);
+    at_corner(piece, 0, s.of_0 * force);
+    at_corner(piece, s.i, s.of_i * force);
+    at_corner(piece, s.i + 1, s.of_next * force);
   }
 
   /// A moment (counter-clockwise, N) as two opposite forces across a side.

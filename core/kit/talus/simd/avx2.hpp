@@ -11,8 +11,6 @@ namespace talus::simd {
 inline namespace avx2 {
 
 inline constexpr int lanes = 4;
-/// An unsigned number in each lane, with the operators of numbers.
-using Numbers [[gnu::vector_size(32)]] = std::uint64_t;
 
 struct Mask {
   __m256d value;
@@ -62,7 +60,7 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
   q = _mm256_unpackhi_pd(low, high);
 }
 /// Two doubles in a row from a place of each lane.
-inline Packs2 gather_points(const double* const* from) {
+[[gnu::always_inline]] inline Packs2 gather_points(const double* const* from) {
   const auto two = [&](int lane) {  // of this lane and the second after it
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[lane])),
                                 _mm_loadu_pd(from[lane + 2]), 1);
@@ -71,7 +69,7 @@ inline Packs2 gather_points(const double* const* from) {
   return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
-inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
+[[gnu::always_inline]] inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   const __m256d p = _mm256_loadu_pd(from[0] + skip), q = _mm256_loadu_pd(from[1] + skip),
                 r = _mm256_loadu_pd(from[2] + skip), s = _mm256_loadu_pd(from[3] + skip);
   const __m256d even = _mm256_unpacklo_pd(p, q), odd = _mm256_unpackhi_pd(p, q);
@@ -83,7 +81,7 @@ inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
 }
 /// Calls visit(lane, from[0…3] of that lane).
 template <class Visit>
-inline void each_row(const Pack* from, const Visit& visit) {
+[[gnu::always_inline]] inline void each_row(const Pack* from, const Visit& visit) {
   const __m256d even = _mm256_unpacklo_pd(from[0].value, from[1].value),
                 odd = _mm256_unpackhi_pd(from[0].value, from[1].value),
                 more_even = _mm256_unpacklo_pd(from[2].value, from[3].value),
@@ -144,9 +142,6 @@ inline Pack select(Mask m, Pack yes, Pack no) {
 /// Bit i says lane i.
 inline unsigned bits(Mask m) {
   return static_cast<unsigned>(_mm256_movemask_pd(m.value));
-}
-inline Mask nonzero(const Numbers& n) {
-  return {reinterpret_cast<__m256d>(n != 0)};
 }
 inline Mask mask_of(unsigned bits) {
   const __m256i bit = _mm256_setr_epi64x(1, 2, 4, 8);

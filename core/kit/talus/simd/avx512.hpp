@@ -11,8 +11,6 @@ namespace talus::simd {
 inline namespace avx512 {
 
 inline constexpr int lanes = 8;
-/// An unsigned number in each lane, with the operators of numbers.
-using Numbers [[gnu::vector_size(64)]] = std::uint64_t;
 
 struct Mask {
   __mmask8 bits;
@@ -61,7 +59,7 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
   q = _mm512_permutex2var_pd(from[0].value, odd, from[1].value);
 }
 /// Two doubles in a row from a place of each lane.
-inline Packs2 gather_points(const double* const* from) {
+[[gnu::always_inline]] inline Packs2 gather_points(const double* const* from) {
   const auto four = [&](int lane) {  // of this lane and each second one after it
     const __m256d low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[lane])),
                                              _mm_loadu_pd(from[lane + 2]), 1),
@@ -73,7 +71,7 @@ inline Packs2 gather_points(const double* const* from) {
   return {_mm512_maskz_unpacklo_pd(0xFF, even, odd), _mm512_maskz_unpackhi_pd(0xFF, even, odd)};
 }
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
-inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
+[[gnu::always_inline]] inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   const auto two = [&](int lane) {  // of this lane and the one four further on
     return _mm512_maskz_insertf64x4(0xFF, _mm512_castpd256_pd512(_mm256_loadu_pd(from[lane] + skip)),
                                     _mm256_loadu_pd(from[lane + 4] + skip), 1);
@@ -91,7 +89,7 @@ inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
 }
 /// Calls visit(lane, from[0…3] of that lane).
 template <class Visit>
-inline void each_row(const Pack* from, const Visit& visit) {
+[[gnu::always_inline]] inline void each_row(const Pack* from, const Visit& visit) {
   const __m512d even = _mm512_maskz_unpacklo_pd(0xFF, from[0].value, from[1].value),
                 odd = _mm512_maskz_unpackhi_pd(0xFF, from[0].value, from[1].value),
                 more_even = _mm512_maskz_unpacklo_pd(0xFF, from[2].value, from[3].value),
@@ -161,9 +159,6 @@ inline unsigned bits(Mask m) {
 }
 inline Mask mask_of(unsigned bits) {
   return {static_cast<__mmask8>(bits)};
-}
-inline Mask nonzero(const Numbers& n) {
-  return {_mm512_test_epi64_mask(reinterpret_cast<const __m512i&>(n), reinterpret_cast<const __m512i&>(n))};
 }
 
 }  // namespace avx512

@@ -22,13 +22,14 @@ inline namespace TALUS_SIMD_LEVEL {
 
 #if defined(__AVX2__)
 /// The way back: to[lane][i] gets from[i] of that lane.
-inline void scatter_rows(const Pack* from, double* const* to) {
+[[gnu::always_inline]] inline void scatter_rows(const Pack* from, double* const* to) {
   each_row(from, [&](int lane, __m256d row) { _mm256_storeu_pd(to[lane], row); });
 }
 /// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
 /// lane.
 template <int count>
-inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* const* to) {
+[[gnu::always_inline]] inline void scatter_turned_rows(const Pack* from, const std::uint8_t* start,
+                                                       double* const* to) {
   alignas(32) static constexpr std::int32_t halves[2][4][8] = {
       {{0, 1, 2, 3, 4, 5}, {4, 5, 0, 1, 2, 3}, {2, 3, 4, 5, 0, 1}, {}},
       {{0, 1, 2, 3, 4, 5, 6, 7},
@@ -48,17 +49,6 @@ inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* 
   });
 }
 #endif
-
-/// Numbers below 2⁵² as doubles.
-inline Pack as_pack(const Numbers& n) {
-  constexpr double unit = 0x1p52;  // in doubles from there on the last bit counts one
-  std::uint64_t bits_of_unit;
-  std::memcpy(&bits_of_unit, &unit, sizeof unit);
-  const Numbers bits = n | bits_of_unit;
-  Pack shifted_up;
-  std::memcpy(&shifted_up, &bits, sizeof bits);
-  return shifted_up - unit;
-}
 
 inline Mask operator>(Pack p, Pack q) {
   return q < p;
