@@ -1,11 +1,13 @@
 #include "model/partition.hpp"
 
 #include "model/lattice_places.hpp"
+#include "model/shared_places.hpp"
 #include "model/space_filling.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -16,6 +18,8 @@ constexpr std::uint32_t elements_at_once = 256;  ///< in a chunk
 /// up to what a core's own cache holds; and some subdomains for each thread.
 constexpr std::uint32_t least_elements = 4096, most_elements = 16384, wanted_subdomains = 16;
 constexpr std::uint32_t patches_in_run = 256;
+/// Rows of cells after which triangles of any shape follow that lie among them.
+constexpr std::uint32_t rows_between = 16;
 constexpr std::uint32_t row_start = 8;  ///< numbers of rows of a lattice start at multiples: vectors align
 
 using Place = LatticePlaces::Place;
@@ -165,7 +169,8 @@ class SubdomainMaker {
         work_(work),
         first_patch_(first_patch),
         local_(work.cover.patches.size(), 0),
-        stamp_(work.cover.patches.size(), 0xFFFFFFFFu) {}
+        stamp_(work.cover.patches.size(), 0xFFFFFFFFu),
+        ready_(work.cover.patches.size(), 0) {}
 
   void make(std::uint32_t s, std::vector<std::uint32_t>& final_order) {
     const std::uint32_t begin = work_.subdomain_start[s], end = work_.subdomain_start[s + 1];
@@ -174,6 +179,7 @@ class SubdomainMaker {
       for (const std::uint32_t patch : work_.cover.elements[work_.order[i]].patches) {
         if (stamp_[patch] == s) continue;
         stamp_[patch] = s;
+        ready_[patch] = 0;
         patches.push_back(patch);
       }
     }
@@ -183,23 +189,31 @@ class SubdomainMaker {
     subdomain.run_begin = static_cast<std::uint32_t>(partition_.runs.size());
     subdomain.slot_begin = static_cast<std::uint32_t>(partition_.slot_patch.size());
     std::uint32_t local = 0;
+    std::vector<std::uint32_t> rows{0};
     for (std::uint32_t i = 0; i < patches.size(); ++i, ++local) {
       if (i > 0 && work_.lattice &&
-          work_.lattice->patch[patches[i]].row != work_.lattice->patch[patches[i - 1]].row)
-        local = (local + row_start - 1) / row_start * row_start;
+          work_.lattice->patch[patches[i]].row != work_.lattice->patch[patches[i - 1]].row) {
+        local = up_to_row_start(local);
+        rows.push_back(local);
+      }
       place_patch(patches[i], local, subdomain.run_begin);
     }
-    subdomain.patch_count = local;
+    rows.push_back(up_to_row_start(local));
     subdomain.run_end = static_cast<std::uint32_t>(partition_.runs.size());
     subdomain.slot_end = static_cast<std::uint32_t>(partition_.slot_patch.size());
     subdomain.chunk_begin = static_cast<std::uint32_t>(partition_.chunks.size());
     add_chunks(begin, end, final_order);
     subdomain.chunk_end = static_cast<std::uint32_t>(partition_.chunks.size());
-    time_runs(subdomain, final_order);
+    time_patches(subdomain, final_order);
+    share_places(partition_, subdomain, std::move(rows));
     partition_.subdomains.push_back(subdomain);
   }
 
  private:
+  static std::uint32_t up_to_row_start(std::uint32_t local) {
+    return (local + row_start - 1) / row_start * row_start;
+  }
+
   void place_patch(std::uint32_t patch, std::uint32_t local, std::uint32_t first_run) {
     local_[patch] = local;
     const std::uint32_t number = first_patch_ + work_.number[patch];
@@ -219,71 +233,125 @@ class SubdomainMaker {
     partition_.runs.push_back({number, local, 1, false});
   }
 
-  /// From when to when each chunk's patches are in use.
-  void time_runs(const Subdomain& subdomain, const std::vector<std::uint32_t>& final_order) {
-    const auto first = partition_.runs.begin() + subdomain.run_begin,
-               last = partition_.runs.begin() + subdomain.run_end;
+  /// From when to when patches are in use.
+  void time_patches(const Subdomain& subdomain, const std::vector<std::uint32_t>& final_order) {
+    std::vector<std::uint32_t> runs;
+    for (std::uint32_t r = subdomain.run_begin; r < subdomain.run_end; ++r)
+      runs.push_back(partition_.runs[r].local);
+    time(subdomain, final_order, false, subdomain.run_begin, runs, &ElementChunk::run_needed,
+         &ElementChunk::run_done);
+    const auto slots = partition_.slot_local.begin();
+    time(subdomain, final_order, true, subdomain.slot_begin,
+         {slots + subdomain.slot_begin, slots + subdomain.slot_end}, &ElementChunk::slot_needed,
+         &ElementChunk::slot_done);
+  }
+
+  /// The same of runs or slots, whose patches are common or not: `starts` are their first numbers, ascending.
+  void time(const Subdomain& subdomain, const std::vector<std::uint32_t>& final_order, bool common,
+            std::uint32_t begin, const std::vector<std::uint32_t>& starts,
+            std::uint32_t ElementChunk::*needed_by, std::uint32_t ElementChunk::*done_by) {
+    const auto end = begin + static_cast<std::uint32_t>(starts.size());
     std::vector<std::uint32_t> least,
-        greatest;  // [chunk] runs that it touches, from the first to past the last
+        greatest;  // [chunk] those that it touches, from the first to past the last
     for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
       const ElementChunk& chunk = partition_.chunks[c];
-      least.push_back(subdomain.run_end);
-      greatest.push_back(subdomain.run_begin);
+      least.push_back(end);
+      greatest.push_back(begin);
       for (std::uint32_t e = chunk.element; e < chunk.element + chunk.count; ++e) {
         for (const std::uint32_t patch : work_.cover.elements[final_order[e]].patches) {
-          if (work_.common[patch] != 0) continue;
-          const auto run = static_cast<std::uint32_t>(
-              std::upper_bound(first, last, local_[patch],
-                               [](std::uint32_t local, const PatchRun& r) { return local < r.local; }) -
-              partition_.runs.begin());
-          least.back() = std::min(least.back(), run - 1);
-          greatest.back() = std::max(greatest.back(), run);
+          if ((work_.common[patch] != 0) != common) continue;
+          const auto past =
+              begin + static_cast<std::uint32_t>(
+                          std::upper_bound(starts.begin(), starts.end(), local_[patch]) - starts.begin());
+          least.back() = std::min(least.back(), past - 1);
+          greatest.back() = std::max(greatest.back(), past);
         }
       }
     }
-    std::uint32_t needed = subdomain.run_begin, done = subdomain.run_end;
+    std::uint32_t needed = begin, done = end;
     for (std::size_t i = 0; i < least.size(); ++i) {
       needed = std::max(needed, greatest[i]);
-      partition_.chunks[subdomain.chunk_begin + i].run_needed = needed;
+      partition_.chunks[subdomain.chunk_begin + i].*needed_by = needed;
     }
     for (std::size_t i = least.size(); i-- > 0;) {
-      partition_.chunks[subdomain.chunk_begin + i].run_done = done;
+      partition_.chunks[subdomain.chunk_begin + i].*done_by = done;
       done = std::min(done, least[i]);
     }
   }
 
+  /// Cells side by side.
+  struct Row {
+    std::uint32_t first, cells;  ///< an entry of Work::order
+    std::int32_t row;            ///< of the lattice
+  };
+
   void add_chunks(std::uint32_t begin, std::uint32_t end, std::vector<std::uint32_t>& final_order) {
-    const std::uint32_t stride = work_.lattice ? 1 : 2;
-    std::vector<std::uint32_t> rest;
     for (std::uint32_t i = begin; work_.lattice && i < end; ++i) {
       const LatticePlaces::ElementPlace& place = work_.lattice->element[work_.order[i]];
       LaidCover::LaidElement& laid = work_.cover.elements[work_.order[i]];
       laid.patches = place.patch;
       laid.lattice = place.kind == Kind::other ? 0 : place.kind == Kind::lower ? 1 : -1;
     }
-    std::uint32_t i = begin;
-    while (i < end) {
+    std::vector<Row> rows;
+    std::vector<std::uint32_t> rest;
+    for (std::uint32_t i = begin; i < end;) {
       const std::uint32_t cells = work_.lattice ? cells_from(i, end) : 0;
       if (cells == 0) {
         rest.push_back(work_.order[i++]);
         continue;
       }
-      const auto first = static_cast<std::uint32_t>(final_order.size());
-      for (std::uint32_t c = 0; c < cells; ++c) final_order.push_back(work_.order[i + 2 * c]);
-      for (std::uint32_t c = 0; c < cells; ++c) final_order.push_back(work_.order[i + 2 * c + 1]);
-      const auto& corner = work_.lattice->element[work_.order[i]].patch;
-      partition_.chunks.push_back({first, 2 * cells, cells, local_[corner[0]], local_[corner[2]], 0, 0, 0});
-      i += 2 * cells;
+      rows.push_back({i, cells, work_.lattice->element[work_.order[i]].cell.row});
+      for (const std::uint32_t past = i + 2 * cells; i < past; ++i) {
+        for (const std::uint32_t patch : work_.cover.elements[work_.order[i]].patches)
+          ready_[patch] = static_cast<std::uint32_t>(rows.size());
+      }
     }
-    for (std::uint32_t k = 0; k < rest.size(); k += elements_at_once) {
+    std::vector<std::vector<std::uint32_t>> after(rows.size() / rows_between + 2);
+    for (const std::uint32_t e : rest)
+      after[(rows_before(e, rows) + rows_between - 1) / rows_between].push_back(e);
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+      if (r % rows_between == 0) add_triangles(after[r / rows_between], final_order);
+      add_cells(rows[r].first, rows[r].cells, final_order);
+    }
+    for (std::size_t i = (rows.size() + rows_between - 1) / rows_between; i < after.size(); ++i)
+      add_triangles(after[i], final_order);
+  }
+
+  /// How many rows of cells an element of any shape waits for: those below it, those that give forces to its
+  /// patches, and those that elements before it wait for. So each patch gets its forces first from rows of
+  /// cells, then from other elements, both in their order.
+  std::uint32_t rows_before(std::uint32_t element, const std::vector<Row>& rows) {
+    if (rows.empty()) return 0;
+    const std::int32_t row = work_.lattice->element[element].cell.row;
+    auto count = static_cast<std::uint32_t>(
+        std::partition_point(rows.begin(), rows.end(), [&](const Row& r) { return r.row <= row; }) -
+        rows.begin());
+    const auto& patches = work_.cover.elements[element].patches;
+    for (const std::uint32_t patch : patches) count = std::max(count, ready_[patch]);
+    for (const std::uint32_t patch : patches) ready_[patch] = count;
+    return count;
+  }
+
+  void add_cells(std::uint32_t i, std::uint32_t cells, std::vector<std::uint32_t>& final_order) {
+    const auto first = static_cast<std::uint32_t>(final_order.size());
+    for (std::uint32_t c = 0; c < cells; ++c) final_order.push_back(work_.order[i + 2 * c]);
+    for (std::uint32_t c = 0; c < cells; ++c) final_order.push_back(work_.order[i + 2 * c + 1]);
+    const auto& corner = work_.lattice->element[work_.order[i]].patch;
+    partition_.chunks.push_back(
+        {first, 2 * cells, cells, local_[corner[0]], local_[corner[2]], 0, 0, 0, 0, 0});
+  }
+
+  void add_triangles(const std::vector<std::uint32_t>& elements, std::vector<std::uint32_t>& final_order) {
+    const std::uint32_t stride = work_.lattice ? 1 : 2;
+    for (std::uint32_t k = 0; k < elements.size(); k += elements_at_once) {
       const auto count =
-          std::min<std::uint32_t>(elements_at_once, static_cast<std::uint32_t>(rest.size()) - k);
+          std::min<std::uint32_t>(elements_at_once, static_cast<std::uint32_t>(elements.size()) - k);
       partition_.chunks.push_back({static_cast<std::uint32_t>(final_order.size()), count, 0, 0, 0,
-                                   static_cast<std::uint32_t>(partition_.corner[0].size()), 0, 0});
+                                   static_cast<std::uint32_t>(partition_.corner[0].size()), 0, 0, 0, 0});
       for (std::uint32_t n = k; n < k + count; ++n) {
-        final_order.push_back(rest[n]);
+        final_order.push_back(elements[n]);
         for (std::size_t c = 0; c < 3; ++c)
-          partition_.corner[c].push_back(stride * local_[work_.cover.elements[rest[n]].patches[c]]);
+          partition_.corner[c].push_back(stride * local_[work_.cover.elements[elements[n]].patches[c]]);
       }
     }
   }
@@ -313,6 +381,7 @@ class SubdomainMaker {
   Work& work_;
   std::uint32_t first_patch_;
   std::vector<std::uint32_t> local_, stamp_;  ///< [patch]
+  std::vector<std::uint32_t> ready_;          ///< [patch] rows of cells after which its forces can go on
 };
 
 /// Puts the cover into the new order.

@@ -20,6 +20,7 @@ struct ElementChunk {
   std::uint32_t triangle;     ///< any shape: the first entry of Partition::corner, gradient, area
   std::uint32_t run_needed;   ///< runs before this one are touched by now
   std::uint32_t run_done;     ///< runs before this one are not touched after it
+  std::uint32_t slot_needed, slot_done;  ///< the same of slots
 };
 
 /// Patches of a subdomain that follow each other in its own numbers and in those of the model.
@@ -34,7 +35,7 @@ struct Subdomain {
   std::uint32_t run_begin, run_end;      ///< own patches
   std::uint32_t slot_begin, slot_end;    ///< common patches
   std::uint32_t chunk_begin, chunk_end;  ///< elements
-  std::uint32_t patch_count;             ///< own and common, numbered from 0, and gaps between rows
+  std::uint32_t patch_count;             ///< room for those in use at once, own and common, from 0
 };
 
 /// A regular lattice of triangles: ∇w of the second and the third corner of a lower triangle; those of an

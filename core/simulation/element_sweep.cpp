@@ -136,13 +136,10 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
 
   for (std::uint32_t s = begin; s < end; ++s) {
     const Subdomain& subdomain = partition.subdomains[s];
-    for (std::uint32_t i = subdomain.slot_begin; i < subdomain.slot_end; ++i) {
-      set(at, partition.slot_local[i], motion.patch_displacement[partition.slot_patch[i]]);
-      set(force, partition.slot_local[i], {});
-    }
-    // Own patches enter when the first element needs them and leave after the last one: they are read from
-    // memory and written to it once.
+    // Patches enter when the first element needs them and leave after the last one: they are read from memory
+    // and written to it once, and leave their places to others.
     std::uint32_t entered = subdomain.run_begin, left = subdomain.run_begin;
+    std::uint32_t slot_entered = subdomain.slot_begin, slot_left = subdomain.slot_begin;
 
     SweepSums& sum = sums[s];
     sum = {};
@@ -150,6 +147,11 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
       const ElementChunk& chunk = partition.chunks[c];
       const std::uint32_t bottom = chunk.bottom, top = chunk.top;
       for (; entered < chunk.run_needed; ++entered) enter(partition.runs[entered]);
+      for (; slot_entered < chunk.slot_needed; ++slot_entered) {
+        set(at, partition.slot_local[slot_entered],
+            motion.patch_displacement[partition.slot_patch[slot_entered]]);
+        set(force, partition.slot_local[slot_entered], {});
+      }
       const bool cells = chunk.cells > 0;
       const kernels::Triangles triangles = cells ? kernels::Triangles{} : triangles_of(partition, chunk);
       // What the next chunk needs comes from memory while this one is worked on.
@@ -182,10 +184,9 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
         sum.dissipated += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.dissipated);
       }
       for (; left < chunk.run_done; ++left) leave(partition.runs[left], sum);
+      for (; slot_left < chunk.slot_done; ++slot_left)
+        slot_[slot_left] = vector_of(force, partition.slot_local[slot_left]);
     }
-
-    for (std::uint32_t i = subdomain.slot_begin; i < subdomain.slot_end; ++i)
-      slot_[i] = vector_of(force, partition.slot_local[i]);
   }
 }
 
