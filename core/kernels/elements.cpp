@@ -18,12 +18,20 @@ struct Whole {
 
   Pack load(const double* from) const { return simd::load(from); }
   void store(Pack p, double* to) const { simd::store(p, to); }
+  Pack only(Pack p) const { return p; }
+  /// Of the two packs in which as many vectors lie, x beside y.
+  Whole half(std::uint32_t /*which*/) const { return {}; }
 };
 struct First {
   std::uint32_t count;
 
   Pack load(const double* from) const { return simd::load_first(from, count); }
   void store(Pack p, double* to) const { simd::store_first(p, to, count); }
+  Pack only(Pack p) const { return simd::only_where(simd::mask_of((1u << count) - 1), p); }
+  First half(std::uint32_t which) const {
+    const std::uint32_t before = which * width, all = 2 * count;
+    return {all <= before ? 0 : all - before < width ? all - before : width};
+  }
 };
 
 /// Calls one of two ways through a loop.
@@ -73,21 +81,20 @@ void move(std::uint32_t count, double dt, double* __restrict d, const double* __
     for (; i < 2 * count; ++i) x[i] = d[i] += dt * v[i];
     return;
   }
-  for (; i + width <= count; i += width) {
+  const auto some = [&](std::uint32_t from, auto row) __attribute__((always_inline)) {
     Pack both[2], apart[2];
     for (std::uint32_t k = 0; k < 2; ++k) {
-      const std::uint32_t j = 2 * i + k * width;
-      both[k] = simd::load(d + j) + dt * simd::load(v + j);
-      simd::store(both[k], d + j);
+      const std::uint32_t j = 2 * from + k * width;
+      const auto half = row.half(k);
+      both[k] = half.load(d + j) + dt * half.load(v + j);
+      half.store(both[k], d + j);
     }
     simd::separate(both, apart[0], apart[1]);
-    simd::store(apart[0], x + i);
-    simd::store(apart[1], y + i);
-  }
-  for (; i < count; ++i) {
-    x[i] = d[2 * i] += dt * v[2 * i];
-    y[i] = d[2 * i + 1] += dt * v[2 * i + 1];
-  }
+    row.store(apart[0], x + from);
+    row.store(apart[1], y + from);
+  };
+  for (; i + width <= count; i += width) some(i, Whole{});
+  if (i < count) some(i, First{count - i});
 }
 
 void lattice_gradient(std::uint32_t cells, const double gradient[4], const double* bottom_x,
@@ -256,30 +263,34 @@ struct Patches {
   double *v, *middle;
 };
 
-/// As many patches as there are lanes, from patch i on; their velocities go to packs k and k + 1 of the sums.
-template <bool all, bool same_mass, bool apart>
+/// The patches of a row from patch i on; their velocities go to packs k and k + 1 of the sums.
+template <bool all, bool same_mass, bool apart, class Row>
 [[gnu::always_inline]] inline void accelerate_some(const VelocityUpdate& how, const Patches& patches,
-                                                   double share, std::uint32_t i, std::uint32_t k,
+                                                   double share, std::uint32_t i, std::uint32_t k, Row row,
                                                    Products& products) {
-  const Pack inverse = same_mass ? Pack(patches.inverse_mass[0]) : simd::load(patches.inverse_mass + i);
-  Pack acceleration[2], mass[2] = {1.0, 1.0};
+  const Pack inverse = same_mass ? Pack(patches.inverse_mass[0]) : row.load(patches.inverse_mass + i);
+  Pack acceleration[2], mass[2];
   if constexpr (apart) {
-    simd::interleave(simd::load(patches.force.x + i) * inverse + how.gravity[0],
-                     simd::load(patches.force.y + i) * inverse + how.gravity[1], acceleration);
+    simd::interleave(row.load(patches.force.x + i) * inverse + how.gravity[0],
+                     row.load(patches.force.y + i) * inverse + how.gravity[1], acceleration);
   } else {
     Pack beside[2] = {inverse, inverse}, gravity[2];
     if constexpr (!same_mass) simd::interleave(inverse, inverse, beside);
     simd::interleave(how.gravity[0], how.gravity[1], gravity);
     for (std::uint32_t half = 0; half < 2; ++half)
-      acceleration[half] = simd::load(patches.force.x + 2 * i + half * width) * beside[half] + gravity[half];
+      acceleration[half] =
+          row.half(half).load(patches.force.x + 2 * i + half * width) * beside[half] + gravity[half];
   }
-  if (!same_mass) simd::interleave(simd::load(patches.mass + i), simd::load(patches.mass + i), mass);
+  if (!same_mass) simd::interleave(row.load(patches.mass + i), row.load(patches.mass + i), mass);
   for (std::uint32_t half = 0; half < 2; ++half) {
+    const auto part = row.half(half);
+    // Lanes beyond the row weigh nothing, so what gravity does to them does not count.
+    if (same_mass) mass[half] = part.only(1.0);
     double* at = patches.v + 2 * i + half * width;
-    const Pack old = simd::load(at), next = how.keep * old + how.gain * acceleration[half];
-    simd::store(next, at);
+    const Pack old = part.load(at), next = how.keep * old + how.gain * acceleration[half];
+    part.store(next, at);
     if (patches.middle != nullptr)
-      simd::store(old + share * (next - old), patches.middle + 2 * i + half * width);
+      part.store(old + share * (next - old), patches.middle + 2 * i + half * width);
     products.add(all, (k + half) % packs, mass[half], old, next);
   }
 }
@@ -287,33 +298,18 @@ template <bool all, bool same_mass, bool apart>
 template <bool all, bool same_mass, bool apart>
 void accelerate_all(std::uint32_t count, const VelocityUpdate& how, const Patches& patches, double share,
                     Products& products) {
-  std::uint32_t i = 0;
+  const auto some = [&](std::uint32_t i, std::uint32_t part, auto row) __attribute__((always_inline)) {
+    accelerate_some<all, same_mass, apart>(how, patches, share, i + part * width, 2 * part, row, products);
+  };
   // Patches i and i + 4 share their lanes of the sums.
   constexpr std::uint32_t most = lanes / 2 > width ? lanes / 2 : width;
+  std::uint32_t i = 0;
   for (; i + most <= count; i += most) {
-    for (std::uint32_t part = 0; part < most / width; ++part)
-      accelerate_some<all, same_mass, apart>(how, patches, share, i + part * width, 2 * part, products);
+    for (std::uint32_t part = 0; part < most / width; ++part) some(i, part, Whole{});
   }
-  const std::uint32_t rest = count - i;
-  if (rest == 0) return;
-  // The others weigh nothing, so what gravity does to them does not count.
-  double mass[most] = {}, inverse_mass[most] = {}, fx[most] = {}, fy[most] = {}, v[2 * most] = {},
-         middle[2 * most];
-  for (std::uint32_t j = 0; j < rest; ++j) {
-    mass[j] = same_mass ? 1 : patches.mass[i + j];
-    inverse_mass[j] = patches.inverse_mass[same_mass ? 0 : i + j];
-    const LocalVectors at = patches.force.from(i + j);
-    fx[j] = *at.x;
-    fy[j] = *at.y;
-    v[2 * j] = patches.v[2 * (i + j)];
-    v[2 * j + 1] = patches.v[2 * (i + j) + 1];
-  }
-  const Patches few{mass, inverse_mass, {fx, fy, 1}, v, patches.middle != nullptr ? middle : nullptr};
-  for (std::uint32_t part = 0; part < most / width; ++part)
-    accelerate_some<all, false, true>(how, few, share, part * width, 2 * part, products);
-  for (std::uint32_t j = 0; j < 2 * rest; ++j) {
-    patches.v[2 * i + j] = v[j];
-    if (patches.middle != nullptr) patches.middle[2 * i + j] = middle[j];
+  for (std::uint32_t part = 0; i + part * width < count; ++part) {
+    const std::uint32_t rest = count - i - part * width;
+    some(i, part, First{rest < width ? rest : width});
   }
 }
 

@@ -189,7 +189,8 @@ void fill_triangles(Model& model, const Body& body, const std::vector<Element>& 
     for (std::uint32_t r = subdomain.run_begin; r < subdomain.run_end; ++r) {
       PatchRun& run = partition.runs[r];
       const auto first = model.patch_mass.begin() + run.patch;
-      run.same_mass = std::all_of(first, first + run.count, [&](double mass) { return mass == *first; });
+      const bool same = std::all_of(first, first + run.count, [&](double mass) { return mass == *first; });
+      run.mass = same ? *first : 0;
     }
   }
 }

@@ -230,7 +230,7 @@ class SubdomainMaker {
         return;
       }
     }
-    partition_.runs.push_back({number, local, 1, false});
+    partition_.runs.push_back({number, local, 1, 0});
   }
 
   /// From when to when patches are in use.

@@ -26,7 +26,7 @@ struct ElementChunk {
 /// Patches of a subdomain that follow each other in its own numbers and in those of the model.
 struct PatchRun {
   std::uint32_t patch, local, count;
-  bool same_mass;  ///< all as heavy as the first
+  double mass;  ///< kg/m, of each; 0 where they differ
 };
 
 /// A part of a body that is worked on in one go, small enough for the cache. Its own patches are those that

