@@ -1,6 +1,7 @@
 #include "simulation/state.hpp"
 
 #include "output/input_error.hpp"
+#include "parallel/large_pages.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or sto
 
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
 constexpr double initial_overlap = 1e-6;
+
+/// What each step of a body of many elements reads and writes in memory.
+void lay_in_large_pages(const Partition& partition, const MotionState& motion) {
+  for (const auto* values : {&motion.patch_displacement, &motion.patch_velocity}) prefer_large_pages(*values);
+  for (const auto& numbers : partition.corner) prefer_large_pages(numbers);
+  for (const auto& values : partition.gradient) prefer_large_pages(values);
+  prefer_large_pages(partition.area);
+}
 
 }  // namespace
 
@@ -58,6 +67,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
   ledger.set_floor(energy_floor());
   blocks.set_supports(stage.supports);
   model.cut = {};  // corners have it
+  lay_in_large_pages(model.partition, motion);
 }
 
 /// One step of the explicit method, t_n to t_{n+1}, and the velocity there.
