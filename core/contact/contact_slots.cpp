@@ -5,12 +5,20 @@
 #include <numeric>
 
 namespace talus {
+namespace {
+
+/// With more, what laws keep of them comes from further away than it takes to find it out anew.
+constexpr std::size_t most_planned_pairs = 16384;
+
+}  // namespace
 
 /// Gives every pair its contact slots, one pair after the other, and moves its contacts there. Where they are
 /// now slot_start tells, counted from the first of all, rising from pair to pair.
 void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
   ++layout_;
-  while (plans_.size() + 1 < batch_begin_.size()) plans_.emplace_back(law_->make_plan());
+  if (pairs_.size() > most_planned_pairs) plans_.clear();
+  while (pairs_.size() <= most_planned_pairs && plans_.size() + 1 < batch_begin_.size())
+    plans_.emplace_back(law_->make_plan());
   slot_base_.assign(1, 0);
   std::size_t most = 0, most_slots = 0;
   for (std::size_t batch = 0; batch + 1 < batch_begin_.size(); ++batch) {

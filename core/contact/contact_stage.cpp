@@ -168,7 +168,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
                              conditions.dt,
                              conditions.hold_stick,
                              conditions.bonds_form,
-                             until == in_this_step ? nullptr : plans_[number].get(),
+                             until == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
                              layout_};
     law_->evaluate(batch, {loads_.x(), loads_.y(), found.history.data(),
                            conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});

@@ -173,11 +173,11 @@ class ContactStage {
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
   std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
-  /// [batch, at least] what the law keeps of it; not where only some of the pairs are asked about once more
+  /// [batch, at least; or empty] what the law keeps of it; not where only some pairs are asked about again
   std::vector<std::unique_ptr<BatchPlan>> plans_;
-  std::uint64_t layout_ = 0;  ///< how often pairs or their slots were laid out
-  std::vector<std::uint32_t> other_batches_;   ///< those of another division, while the two are compared
-  std::uint64_t steps_shared_ = 0;             ///< since the last search
+  std::uint64_t layout_ = 0;                  ///< how often pairs or their slots were laid out
+  std::vector<std::uint32_t> other_batches_;  ///< those of another division, while the two are compared
+  std::uint64_t steps_shared_ = 0;            ///< since the last search
   WaveLoads loads_;
   LawFault fault_;
   std::vector<ChunkTotals> chunk_totals_;

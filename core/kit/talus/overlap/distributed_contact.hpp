@@ -40,13 +40,16 @@ class DistributedContact {
     const auto one_by_one = [&](std::uint32_t i) {
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
     };
-    if (batch.plan == nullptr) plan_.clear();
-    LanePlan& plan = batch.plan == nullptr ? plan_ : static_cast<LanePlan&>(*batch.plan);
-    plan.list_loose(batch, loose_);
-    quadrilaterals_.clear(loose_.size());
-    octagons_.clear(loose_.size());
+    auto* const plan = static_cast<LanePlan*>(batch.plan);
+    std::span<const std::uint32_t> loose{batch.active, batch.active_count};
+    if (plan != nullptr) {
+      plan->list_loose(batch, loose_);
+      loose = loose_;
+    }
+    quadrilaterals_.clear(loose.size());
+    octagons_.clear(loose.size());
     const bool fit = fits_lanes(law);
-    for (const std::uint32_t i : loose_) {
+    for (const std::uint32_t i : loose) {
       const BodyPair& pair = batch.pairs[i];
       // Of bodies that are not plain this is larger than any number of corners.
       const std::uint32_t last_corner = (pair.plain_corners[0] - 1U) | (pair.plain_corners[1] - 1U);
@@ -58,11 +61,8 @@ class DistributedContact {
         octagons_.add(batch, i);
       }
     }
-    quadrilaterals_.give_lanes(batch, loads, plan, plan.quadrilaterals);
-    octagons_.give_lanes(batch, loads, plan, plan.octagons);
-    plan.note_sorted();
-    quadrilaterals_.evaluate(law, batch, loads, plan, plan.quadrilaterals, one_by_one);
-    octagons_.evaluate(law, batch, loads, plan, plan.octagons, one_by_one);
+    quadrilaterals_.evaluate(law, batch, loads, plan, one_by_one);
+    octagons_.evaluate(law, batch, loads, plan, one_by_one);
   }
 
   static bool fits_lanes(const Law& law) {
@@ -463,8 +463,7 @@ class DistributedContact {
     return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
   }
 
-  LanePlan plan_;  ///< of batches that have none of their own
-  std::vector<std::uint32_t> loose_;
+  std::vector<std::uint32_t> loose_;  ///< pairs that have no lane in a plan
   LaneContact<Law, 4> quadrilaterals_;
   LaneContact<Law, 8> octagons_;
   OverlapGroups finder_;

@@ -34,6 +34,7 @@ class LaneContact {
       if (at.contact_count == 1) {
         const double* old = batch.history + std::size_t{at.slot_start} * friction_doubles;
         if (old[7] > 0) {
+          fetch_ahead(batch.boundaries.corner + at.corner_start[1]);
           add_touching(at, TouchingPair::remembered(pair, old[7]));
           return;
         }
@@ -42,73 +43,83 @@ class LaneContact {
     pairs_.push_back(pair);
   }
 
-  /// Gives lanes to the pairs that were added, as far as they overlap: in groups of the plan from the
-  /// `first` on.
-  void give_lanes(const ContactBatch& batch, const ContactLoads& loads, LanePlan& plan,
-                  std::vector<LaneGroup<corners>>& groups, std::size_t first = 0) {
-    // Lanes that are left are filled again, so that pairs added together find room for good.
+  /// Evaluates the pairs that were added, and those that have a lane in the plan, if there is one. Calls
+  /// general(pair) for the pairs that need the general path. Pairs are independent of each other, so which of
+  /// them share a group cannot be seen in the result.
+  template <class General>
+  void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LanePlan* plan,
+                const General& general) {
+    if (plan != nullptr) make_room(plan->template groups<corners>());
+    sieve_all(batch, loads);
+    if (plan != nullptr) evaluate_planned(law, batch, loads, *plan, general);
+    evaluate_touching(law, batch, loads, plan, general);
+    if (pairs_.empty()) return;
+    // Those of last step that may have parted.
+    sieve_all(batch, loads);
+    evaluate_touching(law, batch, loads, plan, general);
+  }
+
+ private:
+  using Groups = std::vector<LaneGroup<corners>>;
+
+  /// For all pairs that were added, should they touch one day: lanes that are left are taken again.
+  void make_room(Groups& groups) const {
+    constexpr std::size_t not_full = 16;  // of all shapes
     const std::size_t added = pairs_.size() + touching_count_[0] + touching_count_[1];
-    if (added > 0) groups.reserve(added / lanes + spare_groups);
+    if (added > 0) groups.reserve(added / lanes + not_full);
+  }
+
+  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly
+  /// came with an earlier pair, for pairs are sorted by it.
+  static void fetch_ahead(const BoundaryCorner* corner) {
+    for (int i = 0; i < 4; ++i) __builtin_prefetch(corner + i);
+  }
+
+  void sieve_all(const ContactBatch& batch, const ContactLoads& loads) {
     for (std::size_t i = 0; i < pairs_.size(); i += lanes) sieve(batch, loads, i);
     pairs_.clear();
+  }
+
+  /// Groups of the plan, in which pairs that touch now take lanes that others have left.
+  template <class General>
+  void evaluate_planned(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LanePlan& plan,
+                        const General& general) {
+    Groups& groups = plan.template groups<corners>();
+    for (const bool averaged : {false, true}) {
+      std::size_t& count = touching_count_[averaged];
+      while (count > 0 && fill_lane(batch, touching_[averaged][count - 1], groups))
+        plan.seat(touching_[averaged][--count].pair);
+    }
+    bool emptied = false;
+    for (LaneGroup<corners>& group : groups) {
+      evaluate_group(law, batch, loads, group, &plan, general);
+      emptied = emptied || group.live == 0;
+    }
+    if (emptied) std::erase_if(groups, [](const LaneGroup<corners>& group) { return group.live == 0; });
+  }
+
+  static bool fill_lane(const ContactBatch& batch, const TouchingPair& touching, Groups& groups) {
+    return std::any_of(groups.begin(), groups.end(),
+                       [&](LaneGroup<corners>& group) { return group.take_in(batch, touching); });
+  }
+
+  template <class General>
+  void evaluate_touching(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LanePlan* plan,
+                         const General& general) {
     for (const bool averaged : {false, true}) {
       std::vector<TouchingPair>& touching = touching_[averaged];
       const std::size_t count = touching_count_[averaged];
       touching_count_[averaged] = 0;
       sort_by_pattern(touching, count);
-      for (std::size_t i = 0; i < count; ++i) plan.seat(touching[i].pair);
-      std::size_t seated = 0;
-      while (seated < count && fill_lane(batch, touching[seated], groups, first)) ++seated;
-      for (std::size_t i = seated; i < count; i += lanes)
-        groups.emplace_back().take(batch, &touching[i],
-                                   static_cast<int>(std::min<std::size_t>(lanes, count - i)));
-    }
-  }
-
-  /// Calls general(pair) for the pairs that need the general path. Pairs are independent of each other, so
-  /// which of them share a group cannot be seen in the result.
-  template <class General>
-  void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LanePlan& plan,
-                std::vector<LaneGroup<corners>>& groups, const General& general) {
-    std::size_t done = evaluate_from(0, law, batch, loads, plan, groups, general);
-    if (!pairs_.empty()) {  // they may have parted
-      give_lanes(batch, loads, plan, groups, done);
-      done = evaluate_from(done, law, batch, loads, plan, groups, general);
-    }
-    if (!emptied_) return;
-    std::erase_if(groups, [](const LaneGroup<corners>& group) { return group.live == 0; });
-    emptied_ = false;
-  }
-
- private:
-  static bool fill_lane(const ContactBatch& batch, const TouchingPair& touching,
-                        std::vector<LaneGroup<corners>>& groups, std::size_t first) {
-    return std::any_of(groups.begin() + static_cast<std::ptrdiff_t>(first), groups.end(),
-                       [&](LaneGroup<corners>& group) { return group.take_in(batch, touching); });
-  }
-
-  template <class General>
-  std::size_t evaluate_from(std::size_t first, const Law& law, const ContactBatch& batch,
-                            const ContactLoads& loads, LanePlan& plan,
-                            std::vector<LaneGroup<corners>>& groups, const General& general) {
-    for (std::size_t i = first; i < groups.size(); ++i) {
-      LaneGroup<corners>& group = groups[i];
-      const LaneBits refused = evaluate_group(law, batch, loads, group);
-      if (refused != 0) {
-        each_lane(refused, [&](int lane) {
-          plan.unseat(group.pair[lane]);
-          if ((group.unseen >> lane & 1) != 0) {
-            pairs_.push_back(group.pair[lane]);
-          } else {
-            general(group.pair[lane]);
-          }
-        });
-        group.live &= ~refused;
-        emptied_ = emptied_ || group.live == 0;
+      for (std::size_t i = 0; i < count; i += lanes) {
+        LaneGroup<corners>& group =
+            plan != nullptr ? plan->template groups<corners>().emplace_back() : group_;
+        const auto size = static_cast<int>(std::min<std::size_t>(lanes, count - i));
+        group.take(batch, &touching[i], size);
+        for (int lane = 0; plan != nullptr && lane < size; ++lane) plan->seat(group.pair[lane]);
+        evaluate_group(law, batch, loads, group, plan, general);
       }
-      group.unseen = group.remembered = all_lanes;
     }
-    return groups.size();
   }
 
   void add_touching(const BodyPair& pair, TouchingPair touching) {
@@ -160,23 +171,40 @@ class LaneContact {
     return sum;
   }
 
+  template <class General>
+  void evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                      LaneGroup<corners>& group, LanePlan* plan, const General& general) {
+    const LaneBits unserved = evaluate_shape(law, batch, loads, group);
+    each_lane(unserved, [&](int lane) {
+      const std::uint32_t pair = group.pair[lane];
+      if (plan != nullptr) plan->unseat(pair);
+      if ((group.unseen >> lane & 1) != 0) {
+        pairs_.push_back(pair);
+      } else {
+        general(pair);
+      }
+    });
+    group.live &= ~unserved;
+    group.unseen = group.remembered = all_lanes;
+  }
+
   /// Returns the lanes that it cannot serve.
-  LaneBits evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+  LaneBits evaluate_shape(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
                           const LaneGroup<corners>& group) {
     // Triangles and quadrilaterals, which most blocks are, need no look at which lane has which side.
     if constexpr (corners == 4) {
       const int sides = group.rows[0].sides, other_sides = group.rows[1].sides;
-      if (sides == 4 && other_sides == 4) return evaluate_group_of<4, 4>(law, batch, loads, group);
-      if (sides == 3 && other_sides == 3) return evaluate_group_of<3, 3>(law, batch, loads, group);
-      if (sides == 3 && other_sides == 4) return evaluate_group_of<3, 4>(law, batch, loads, group);
-      if (sides == 4 && other_sides == 3) return evaluate_group_of<4, 3>(law, batch, loads, group);
+      if (sides == 4 && other_sides == 4) return evaluate_lanes<4, 4>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 3) return evaluate_lanes<3, 3>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 4) return evaluate_lanes<3, 4>(law, batch, loads, group);
+      if (sides == 4 && other_sides == 3) return evaluate_lanes<4, 3>(law, batch, loads, group);
     }
-    return evaluate_group_of<mixed, mixed>(law, batch, loads, group);
+    return evaluate_lanes<mixed, mixed>(law, batch, loads, group);
   }
 
   template <int sides, int other_sides>
-  LaneBits evaluate_group_of(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
-                             const LaneGroup<corners>& g) {
+  LaneBits evaluate_lanes(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                          const LaneGroup<corners>& g) {
     piece_[0].template read<sides>(batch.boundaries.corner, g.rows[0],
                                    {simd::load(g.offset_x[0]), simd::load(g.offset_y[0])});
     piece_[1].template read<other_sides>(batch.boundaries.corner, g.rows[1],
@@ -433,14 +461,12 @@ class LaneContact {
     });
   }
 
-  static constexpr std::size_t spare_groups = 16;  ///< of all shapes, with lanes left over
-
   std::vector<std::uint32_t> pairs_;
   std::vector<TouchingPair> touching_[2];  ///< [both roles count half]
   std::size_t touching_count_[2] = {0, 0};
   std::vector<TouchingPair> sorted_;
   LaneSieve<corners> sieve_;
-  bool emptied_ = false;  ///< a group has lost its last lane
+  LaneGroup<corners> group_;  ///< of pairs that keep no lanes
   LanePiece<corners> piece_[2];
   LaneCells<corners> cells_[2];
   int roles_ = 1;

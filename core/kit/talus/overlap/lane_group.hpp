@@ -82,7 +82,8 @@ struct LaneGroup {
     if (live == all_lanes || touching.averaged(batch) != averaged) return false;
     const BodyPair& at = batch.pairs[touching.pair];
     for (int p = 0; p < 2; ++p) {
-      if (rows[p].sides != mixed && at.plain_corners[at.master_share == 0 ? 1 - p : p] != rows[p].sides)
+      if (rows[p].sides != mixed &&
+          at.plain_corners[at.master_share == 0 ? 1 - p : p] != static_cast<std::uint32_t>(rows[p].sides))
         return false;
     }
     place(batch, touching, std::countr_one(live));
@@ -132,12 +133,13 @@ struct LaneGroup {
   }
 
   void compare() {
-    for (LaneRows<corners>& piece : rows) {
-      piece.compare();
-      piece.mark_real();
+    for (LaneRows<corners>& piece : rows) piece.lay_out();
+    if (rows[0].sides == mixed || rows[1].sides == mixed) {
+      for (LaneRows<corners>& piece : rows) piece.mark_real();
     }
-    alike = std::all_of(interface_row, interface_row + lanes,
-                        [&](std::uint32_t row) { return row == interface_row[0]; });
+    std::uint32_t other = 0;
+    for (const std::uint32_t row : interface_row) other |= row ^ interface_row[0];
+    alike = other == 0;
   }
 
   /// All lanes are wanted and have three or four corners.
@@ -163,13 +165,13 @@ struct LaneGroup {
       simd::store(from[i].load.y, y[i]);
     }
     each_lane(wanted, [&](int lane) {
-      const int size = rows[p].count[lane];
+      const auto size = static_cast<int>(rows[p].count[lane]);
       for (int i = size; i < most; ++i) {
         x[0][lane] += x[i][lane];
         y[0][lane] += y[i][lane];
       }
       double *const to_x = loads.fx + load_start[p][lane], *const to_y = loads.fy + load_start[p][lane];
-      int corner = rows[p].start[lane];
+      auto corner = static_cast<int>(rows[p].start[lane]);
       for (int i = 0; i < size; ++i) {
         to_x[corner] = x[i][lane];
         to_y[corner] = y[i][lane];

@@ -12,6 +12,7 @@ inline namespace TALUS_SIMD_LEVEL {
 
 using simd::lanes;
 using simd::Mask;
+using simd::Numbers;
 using simd::Pack;
 using simd::Packs2;
 
@@ -26,34 +27,37 @@ constexpr int corners_of(int sides, int corners) {
 /// with fewer corners than the widest begins again after its last: sides that own nothing.
 template <int corners>
 struct LaneRows {
-  std::uint32_t row[corners][lanes];  ///< doubles from Boundaries::corner on
-  std::uint32_t real[corners];        ///< which lanes have this side, as bits, once marked
-  std::uint8_t start[lanes];          ///< the corner of the piece that is called 0 here
-  std::uint8_t count[lanes];          ///< of corners
-  int sides;                          ///< 3 or 4 if all lanes have so many, else mixed
+  Numbers row[corners];         ///< doubles from Boundaries::corner on
+  std::uint32_t real[corners];  ///< of mixed lanes: which have this side, as bits
+  Numbers first;                ///< corner of all that is corner 0 of the piece
+  Numbers start;                ///< the corner of the piece that is called 0 here
+  Numbers count;                ///< of corners
+  int sides;                    ///< 3 or 4 if all lanes have so many, else mixed
 
-  /// The piece whose corner 0 is `first` of all.
-  void place(int lane, std::uint32_t first, std::uint32_t corner_count, std::uint32_t start_corner = 0) {
-    constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double);
-    start[lane] = static_cast<std::uint8_t>(start_corner);
-    count[lane] = static_cast<std::uint8_t>(corner_count);
-    for (std::uint32_t i = 0; i < corners; ++i) {
-      std::uint32_t turn = start_corner + i;
-      turn -= turn >= corner_count ? corner_count : 0;
-      while (corners > 4 && turn >= corner_count) turn -= corner_count;  // no piece has less than three
-      row[i][lane] = (first + turn) * doubles;
-    }
+  void place(int lane, std::uint32_t first_corner, std::uint32_t corner_count,
+             std::uint32_t start_corner = 0) {
+    first[lane] = first_corner;
+    start[lane] = start_corner;
+    count[lane] = corner_count;
   }
 
   /// To be called once all lanes have their place.
-  void compare() {
-    sides = count[0] > 4 ? mixed : count[0];
-    for (const std::uint8_t other : count) sides = other == count[0] ? sides : mixed;
+  void lay_out() {
+    constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double);
+    Numbers turn = start;
+    for (Numbers& at : row) {
+      at = (first + turn) * doubles;
+      turn += 1;
+      turn = turn == count ? Numbers{} : turn;
+    }
+    std::uint32_t other = 0;
+    for (int lane = 1; lane < lanes; ++lane) other |= count[lane] ^ count[0];
+    sides = other != 0 || count[0] > 4 ? mixed : static_cast<int>(count[0]);
   }
 
   /// To be called where the pieces of a pair are not all alike.
   void mark_real() {
-    for (int i = 0; i < corners; ++i) {
+    for (std::uint32_t i = 0; i < corners; ++i) {
       real[i] = 0;
       for (int lane = 0; lane < lanes; ++lane) real[i] |= (i < count[lane] ? 1U : 0U) << lane;
     }

@@ -13,20 +13,16 @@ inline namespace TALUS_SIMD_LEVEL {
 /// step, so that nobody need look up again where its corners are; once in a while all are sorted anew.
 class LanePlan final : public BatchPlan {
  public:
-  /// Nobody has a lane.
-  void clear() {
-    quadrilaterals.clear();
-    octagons.clear();
-    seated_.assign(seated_.size(), 0);
-    seats_ = 0;
-    steps_ = 0;
+  template <int corners>
+  std::vector<LaneGroup<corners>>& groups() {
+    if constexpr (corners == 4) return quadrilaterals_;
+    if constexpr (corners == 8) return octagons_;
   }
 
   /// Lists the pairs to evaluate that have no lane: all, where the lanes are not those of these pairs or it
   /// is time to sort them.
   void list_loose(const ContactBatch& batch, std::vector<std::uint32_t>& loose) {
-    if (batch.layout != layout_ || ++steps_ == steps_between_sorts || groups() > 2 + sorted_ + sorted_ / 8)
-      clear();
+    if (batch.layout != layout_ || ++steps_ == steps_between_sorts) clear();
     layout_ = batch.layout;
     if (batch.active_count > 0) {
       const std::size_t end = batch.active[batch.active_count - 1] + std::size_t{1};
@@ -38,11 +34,6 @@ class LanePlan final : public BatchPlan {
     list(batch, loose);
   }
 
-  /// To be called when lanes have been given to those listed.
-  void note_sorted() {
-    if (steps_ == 0) sorted_ = groups();
-  }
-
   void seat(std::uint32_t pair) {
     seated_[pair] = 1;
     ++seats_;
@@ -52,14 +43,18 @@ class LanePlan final : public BatchPlan {
     --seats_;
   }
 
-  std::vector<LaneGroup<4>> quadrilaterals;
-  std::vector<LaneGroup<8>> octagons;
-
  private:
   /// Which sides meet changes slowly, so that lanes of a group soon are not alike any more.
   static constexpr std::uint32_t steps_between_sorts = 16;
 
-  std::size_t groups() const { return quadrilaterals.size() + octagons.size(); }
+  /// Nobody has a lane.
+  void clear() {
+    quadrilaterals_.clear();
+    octagons_.clear();
+    seated_.assign(seated_.size(), 0);
+    seats_ = 0;
+    steps_ = 0;
+  }
 
   void list(const ContactBatch& batch, std::vector<std::uint32_t>& loose) const {
     loose.resize(batch.active_count);
@@ -72,8 +67,10 @@ class LanePlan final : public BatchPlan {
     loose.resize(static_cast<std::size_t>(next - loose.data()));
   }
 
+  std::vector<LaneGroup<4>> quadrilaterals_;
+  std::vector<LaneGroup<8>> octagons_;
   std::vector<std::uint8_t> seated_;  ///< [pair]
-  std::size_t seats_ = 0, sorted_ = 0;
+  std::size_t seats_ = 0;
   std::uint32_t steps_ = 0;
   std::uint64_t layout_ = 0;
 };

@@ -23,7 +23,7 @@ class LaneSieve {
         rows[body].place(lane, pair.corner_start[body], pair.plain_corners[body]);
       place[lane] = &pair.offset_x;
     }
-    for (LaneRows<corners>& piece : rows) piece.compare();
+    for (LaneRows<corners>& piece : rows) piece.lay_out();
     const BoundaryCorner* const corner = batch.boundaries.corner;
     const Packs2 offset = simd::gather_points(place);
     simd::store(-least_reach_of_both(corner, rows, offset), gap);

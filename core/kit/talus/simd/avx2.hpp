@@ -11,6 +11,8 @@ namespace talus::simd {
 inline namespace avx2 {
 
 inline constexpr int lanes = 4;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(16)]] = std::uint32_t;
 
 struct Mask {
   __m256d value;

@@ -11,6 +11,8 @@ namespace talus::simd {
 inline namespace avx512 {
 
 inline constexpr int lanes = 8;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(32)]] = std::uint32_t;
 
 struct Mask {
   __mmask8 bits;

@@ -28,7 +28,7 @@ inline namespace TALUS_SIMD_LEVEL {
 /// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
 /// lane.
 template <int count>
-[[gnu::always_inline]] inline void scatter_turned_rows(const Pack* from, const std::uint8_t* start,
+[[gnu::always_inline]] inline void scatter_turned_rows(const Pack* from, const Numbers& start,
                                                        double* const* to) {
   alignas(32) static constexpr std::int32_t halves[2][4][8] = {
       {{0, 1, 2, 3, 4, 5}, {4, 5, 0, 1, 2, 3}, {2, 3, 4, 5, 0, 1}, {}},

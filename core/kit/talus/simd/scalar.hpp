@@ -10,6 +10,8 @@ namespace talus::simd {
 inline namespace scalar {
 
 inline constexpr int lanes = 1;
+/// An unsigned number in each lane, with the operators of numbers.
+using Numbers [[gnu::vector_size(4)]] = std::uint32_t;
 
 struct Mask {
   bool value;
@@ -66,7 +68,7 @@ inline void scatter_rows(const Pack* from, double* const* to) {
 /// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
 /// lane.
 template <int count>
-inline void scatter_turned_rows(const Pack* from, const std::uint8_t* start, double* const* to) {
+inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* const* to) {
   for (unsigned i = 0; i < count; ++i) to[0][(start[0] + i) % count] = from[i].value;
 }
 inline Pack operator+(Pack p, Pack q) {
