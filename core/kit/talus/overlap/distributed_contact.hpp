@@ -46,8 +46,8 @@ class DistributedContact {
       plan->list_loose(batch, loose_);
       loose = loose_;
     }
-    quadrilaterals_.clear(loose.size());
-    octagons_.clear(loose.size());
+    quadrilaterals_.clear(batch.active_count);
+    octagons_.clear(batch.active_count);
     const bool fit = fits_lanes(law);
     for (const std::uint32_t i : loose) {
       const BodyPair& pair = batch.pairs[i];

@@ -18,7 +18,7 @@ inline namespace TALUS_SIMD_LEVEL {
 template <class Law, int corners>
 class LaneContact {
  public:
-  /// Starts a batch of `most` pairs without a lane at most.
+  /// Starts a batch of `most` pairs at most, with and without a lane.
   void clear(std::size_t most) {
     pairs_.clear();
     for (auto* touching : {&touching_[0], &touching_[1], &sorted_}) {
@@ -64,7 +64,7 @@ class LaneContact {
 
   /// For all pairs that were added, should they touch one day: lanes that are left are taken again.
   void make_room(Groups& groups) const {
-    constexpr std::size_t not_full = 16;  // of all shapes
+    constexpr std::size_t not_full = 64;  // a few in each step until all are sorted anew
     const std::size_t added = pairs_.size() + touching_count_[0] + touching_count_[1];
     if (added > 0) groups.reserve(added / lanes + not_full);
   }
