@@ -4,23 +4,22 @@
 #include <sys/mman.h>
 #endif
 
-#include <cstdint>
+#include <memory>
 
 namespace talus {
 
 #if defined(__linux__)
 
 void prefer_large_pages(const void* data, std::size_t bytes) {
-  constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+  constexpr std::size_t page = std::size_t{1} << 21;
   constexpr int collapse = 25;  // MADV_COLLAPSE, Linux 6.1, which not all headers know
-  const auto first = reinterpret_cast<std::uintptr_t>(data), end = (first + bytes) / page * page;
-  const std::uintptr_t begin = (first + page - 1) / page * page;
-  if (begin >= end) return;
+  void* begin = const_cast<void*>(data);
+  if (std::align(page, page, begin, bytes) == nullptr) return;
+  const std::size_t whole = bytes / page * page;
   // Both are wishes: the first for a system that joins pages in its own time, the second for one that can at
   // once.
-  void* const from = reinterpret_cast<void*>(begin);
-  (void)madvise(from, end - begin, MADV_HUGEPAGE);
-  (void)madvise(from, end - begin, collapse);
+  (void)madvise(begin, whole, MADV_HUGEPAGE);
+  (void)madvise(begin, whole, collapse);
 }
 
 #else
