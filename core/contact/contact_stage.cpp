@@ -117,6 +117,9 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
                                             const Conditions& conditions) {
   if (!law_ || pairs_.empty()) return 0;
   chunk_totals_.assign(chunk_totals_.size(), {});
+  // What is found here is not kept, so no plan may count on it.
+  std::vector<std::unique_ptr<BatchPlan>> plans;
+  plans.swap(plans_);
   interfaces_.value = former_interface_values_.data();
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     ask(model, motion, conditions, wave(number), travelled_, true,
@@ -129,6 +132,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
         });
   }
   interfaces_.value = interface_values_.data();
+  plans_.swap(plans);
   loads_.renew();  // with other parameters a law may find contact where it finds none now
   const ContactTotals found = totals();
   return found.stored + found.slip_loss;

@@ -20,7 +20,8 @@ namespace talus::overlap {
 template <class Law>
 class DistributedContact {
  public:
-  /// Plain bodies go side by side through the lanes; the others, and what the lanes hand back, one by one.
+  /// Plain bodies go side by side through the lanes; the others, and what the lanes hand back, one by one. A
+  /// plan of the batch, if there is one, is a LanePlan.
   void evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads) {
     if constexpr (HasOwnPressure<Law>) {
       evaluate_one_by_one(law, batch, loads);
@@ -40,8 +41,10 @@ class DistributedContact {
     const auto one_by_one = [&](std::uint32_t i) {
       evaluate_pair(law, batch, loads, batch.pairs[i], loads.pairs[i]);
     };
-    auto* const plan = static_cast<LanePlan*>(batch.plan);
+    LanePlan* plan = nullptr;
     std::span<const std::uint32_t> loose{batch.active, batch.active_count};
+    // Without friction nobody remembers which side faces the other body, so lanes cannot last.
+    if constexpr (Law::frictional) plan = static_cast<LanePlan*>(batch.plan);
     if (plan != nullptr) {
       plan->list_loose(batch, loose_);
       loose = loose_;

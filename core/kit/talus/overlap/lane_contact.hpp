@@ -86,9 +86,13 @@ class LaneContact {
                         const General& general) {
     Groups& groups = plan.template groups<corners>();
     for (const bool averaged : {false, true}) {
+      std::vector<TouchingPair>& touching = touching_[averaged];
       std::size_t& count = touching_count_[averaged];
-      while (count > 0 && fill_lane(batch, touching_[averaged][count - 1], groups))
-        plan.seat(touching_[averaged][--count].pair);
+      for (std::size_t i = count; i-- > 0;) {
+        if (!fill_lane(batch, touching[i], groups)) continue;
+        plan.seat(touching[i].pair);
+        touching[i] = touching[--count];
+      }
     }
     bool emptied = false;
     for (LaneGroup<corners>& group : groups) {
