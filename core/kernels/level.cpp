@@ -18,33 +18,31 @@ extern const BlockKernels block_kernels;
 extern const ContactKernels contact_kernels;
 extern const ElementKernels element_kernels;
 }  // namespace avx512
+#else
+namespace avx2 = scalar;
+namespace avx512 = scalar;
 #endif
 
+namespace {
+
+template <class Kernels>
+const Kernels& pick(SimdLevel level, const Kernels& scalar, const Kernels& avx2, const Kernels& avx512) {
+  if (level == SimdLevel::avx512) return avx512;
+  return level == SimdLevel::avx2 ? avx2 : scalar;
+}
+
+}  // namespace
+
 const BlockKernels& block_kernels(SimdLevel level) {
-#ifdef TALUS_KERNEL_LEVELS
-  if (level == SimdLevel::avx512) return avx512::block_kernels;
-  if (level == SimdLevel::avx2) return avx2::block_kernels;
-#endif
-  (void)level;
-  return scalar::block_kernels;
+  return pick(level, scalar::block_kernels, avx2::block_kernels, avx512::block_kernels);
 }
 
 const ContactKernels& contact_kernels(SimdLevel level) {
-#ifdef TALUS_KERNEL_LEVELS
-  if (level == SimdLevel::avx512) return avx512::contact_kernels;
-  if (level == SimdLevel::avx2) return avx2::contact_kernels;
-#endif
-  (void)level;
-  return scalar::contact_kernels;
+  return pick(level, scalar::contact_kernels, avx2::contact_kernels, avx512::contact_kernels);
 }
 
 const ElementKernels& element_kernels(SimdLevel level) {
-#ifdef TALUS_KERNEL_LEVELS
-  if (level == SimdLevel::avx512) return avx512::element_kernels;
-  if (level == SimdLevel::avx2) return avx2::element_kernels;
-#endif
-  (void)level;
-  return scalar::element_kernels;
+  return pick(level, scalar::element_kernels, avx2::element_kernels, avx512::element_kernels);
 }
 
 void SpeedExtremes::add(const SpeedExtremes& other) {
