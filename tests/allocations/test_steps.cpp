@@ -62,7 +62,9 @@ Scene scene_of(const Stack& stack, const char* law) {
   std::vector<Override> overrides{
       {"/contact/model", law}, {"/time/safety", "0.2"}, {"/output/history", "0.0005"}};
   if (stack.scene == nullptr) return from_text(lattices, overrides);
-  overrides.push_back({"/cover/model", stack.cover});
+  overrides.insert(overrides.end(), {{"/cover/model", stack.cover},
+                                     {"/interfaces/0/normal_damping", "0.3"},
+                                     {"/interfaces/0/tangential_damping", "0.3"}});
   return shipped(stack.scene, overrides);
 }
 

@@ -59,10 +59,13 @@ void measure(benchmark::State& state, const Program& program, int threads) {
 }  // namespace
 
 void register_whole_programs() {
-  const std::string scenes = TALUS_SCENES, rigid = R"(--set '/cover/model=rigid')";
+  const std::string scenes = TALUS_SCENES, rigid = R"(--set '/cover/model=rigid')",
+                    sleep = R"(--set '/sleep={}')";
   std::vector<Program> programs{
       {"brick_wall/411/block", scenes + "/brick_wall.json", "", 1},
       {"brick_wall/411/rigid", scenes + "/brick_wall.json", rigid, 1},
+      {"brick_wall/411/block/sleep", scenes + "/brick_wall.json", sleep, 1},
+      {"brick_wall/411/rigid/sleep", scenes + "/brick_wall.json", rigid + " " + sleep, 1},
   };
   const std::string vaiont = scenes + "/vaiont.json";
   if (std::filesystem::exists(vaiont)) programs.push_back({"vaiont", vaiont, "", 35});
