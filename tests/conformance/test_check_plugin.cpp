@@ -92,7 +92,7 @@ TEST_CASE("check-plugin passes a right law, material and cover in each of their 
 }
 
 TEST_CASE("a law that favours, depends or pulls fails in the one check that is meant for it",
-          "[conformance]") {
+          "[conformance][slow_sanitised]") {
   expect_one_failure({{"attracts", "gap"},
                       {"depends_on_order", "order"},
                       {"depends_on_place", "translation"},
@@ -106,7 +106,7 @@ TEST_CASE("a law that favours, depends or pulls fails in the one check that is m
 }
 
 TEST_CASE("a law that is wrong about energy or stiffness fails in the one check that is meant for it",
-          "[conformance]") {
+          "[conformance][slow_sanitised]") {
   expect_one_failure({{"books_no_loss", "account"},
                       {"creates_energy", "cycles"},
                       {"has_no_potential", "potential"},

@@ -197,7 +197,8 @@ TEST_CASE("A law without friction has no tangential force, and mu = 0 is a law w
   }
 }
 
-TEST_CASE("Slivers as thin as the rounding of their corners make no force and no moment", "[laws]") {
+TEST_CASE("Slivers as thin as the rounding of their corners make no force and no moment",
+          "[laws][slow_sanitised]") {
   // Such a sliver is not quite convex. With areas that cancel and moments that do not, its centroid was once
   // found 5e14 m away, and a force of 1e-6 N there overturned a wall.
   for (const std::string& law : laws()) {

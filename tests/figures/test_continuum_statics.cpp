@@ -75,7 +75,7 @@ std::string mesh_of_lower() {
 }  // namespace
 
 TEST_CASE("Contact patch test: pressure passes evenly between covers that do not match",
-          "[figures][continuum]") {
+          "[figures][continuum][slow_sanitised]") {
   const std::string coarse =
       R"({"model": "hexagonal", "size": 0.3, "offset_x": 0.07, "offset_y": 0.04, "angle": 17})";
   const std::string fine =

@@ -61,7 +61,7 @@ void check_bits(const Short& what) {
 }  // namespace
 
 TEST_CASE("Same bits with any number of threads, without the skin, and with any instruction set",
-          "[figures][same_bits]") {
+          "[figures][same_bits][slow_sanitised]") {
   check_bits(
       GENERATE(Short{"vaiont", shipped_file("vaiont"), {{"/time/end", "0.02"}, {"/settle/duration", "0.01"}}},
                Short{"brick_wall", shipped_file("brick_wall"), {{"/time/end", "0.0015"}}},
@@ -86,7 +86,7 @@ TEST_CASE("Same bits in all scenes that are measured", "[slow][figures][same_bit
                            Short{"lattice", struck_lattice, {}}));
 }
 
-TEST_CASE("Same bits after neighbours have been sought anew", "[figures][same_bits]") {
+TEST_CASE("Same bits after neighbours have been sought anew", "[figures][same_bits][slow_sanitised]") {
   // Bodies that move by 1 to 2 m/s against each other use up what the skin leaves to each, 0.05 m.
   const Scene scene = at_level(
       {"sliding", generated_file("sliding_symmetric"), {{"/time/end", "0.066"}, {"/time/safety", "0.4"}}},

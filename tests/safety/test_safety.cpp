@@ -63,7 +63,7 @@ double wedge_factor() {
 
 }  // namespace
 
-TEST_CASE("One block on an incline has the factor of safety tan φ / tan θ", "[safety]") {
+TEST_CASE("One block on an incline has the factor of safety tan φ / tan θ", "[safety][slow_sanitised]") {
   for (const char* friction : {"31", "45"}) {
     const Scene scene =
         shipped("stick_31deg", {{"/interfaces/0/friction_angle", friction}, {"/time/end", "1"}});
@@ -72,7 +72,7 @@ TEST_CASE("One block on an incline has the factor of safety tan φ / tan θ", "[
   }
 }
 
-TEST_CASE("Two wedges have the factor of limit equilibrium", "[safety]") {
+TEST_CASE("Two wedges have the factor of limit equilibrium", "[safety][slow_sanitised]") {
   const Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", wedges()));
   const double due = wedge_factor();
   CHECK(due == Approx(1.8234).epsilon(1e-4));

@@ -64,7 +64,7 @@ constexpr Case broken{"made_up", "broken", "It ends.", 1,
 
 }  // namespace
 
-TEST_CASE("Quick reference cases hold, and documents show what they give", "[verification]") {
+TEST_CASE("Quick reference cases hold, and documents show what they give", "[verification][slow_sanitised]") {
   const std::string documents =
       read_whole_file(TALUS_DOCS "/verification.md") + read_whole_file(TALUS_DOCS "/stability.md");
   for (const CaseResult& result : verify(bench(), {.cases = quick_cases(), .threads = 2})) {
