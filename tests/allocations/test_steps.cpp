@@ -62,9 +62,7 @@ Scene scene_of(const Stack& stack, const char* law) {
   std::vector<Override> overrides{
       {"/contact/model", law}, {"/time/safety", "0.2"}, {"/output/history", "0.0005"}};
   if (stack.scene == nullptr) return from_text(lattices, overrides);
-  overrides.insert(overrides.end(), {{"/cover/model", stack.cover},
-                                     {"/interfaces/0/normal_damping", "0.3"},
-                                     {"/interfaces/0/tangential_damping", "0.3"}});
+  overrides.push_back({"/cover/model", stack.cover});
   return shipped(stack.scene, overrides);
 }
 
@@ -91,7 +89,8 @@ TEST_CASE("Steps ask for no memory, nor does a search for neighbours", "[allocat
   const char* law = GENERATE("overlap_area", "vertex_edge", "frictionless");
   const RunSettings settings = GENERATE(RunSettings{1, true}, RunSettings{1, false}, RunSettings{2, true});
   CAPTURE(stack.name, law, settings.threads, settings.neighbour_skin);
-  const Observed seen = observe(scene_of(stack, law), settings, 0.005, 0.009);
+  // Laws lay out what they clip polygons with when the first pair needs it: in the wall after 7 ms.
+  const Observed seen = observe(scene_of(stack, law), settings, 0.01, 0.014);
   CHECK(seen.steps > 40);
   CHECK(seen.searches == (settings.neighbour_skin ? 0 : seen.steps));
   CHECK(seen.allocations == 0);
