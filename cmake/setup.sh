@@ -44,8 +44,10 @@ TEXT
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# build_preset NAME: configures and builds into build/NAME.
+# build_preset NAME [TARGET...]: configures, and builds these targets, or all, into build/NAME.
 build_preset() {
-  cmake --preset "$1" > /dev/null
-  cmake --build --preset "$1" --parallel "$(nproc)"
+  local preset=$1
+  shift
+  cmake --preset "$preset" > /dev/null
+  cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
