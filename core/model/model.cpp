@@ -230,7 +230,7 @@ std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, st
   return sides;
 }
 
-Model build_model(const Scene& scene) {
+Model build_model(const Scene& scene, std::span<const std::uint32_t> given) {
   Model model;
   model.piece_start.push_back(0);
   make_room(model, scene);
@@ -239,7 +239,7 @@ Model build_model(const Scene& scene) {
     try {
       add_body(model, scene, i);
     } catch (const BodyRefused& problem) {
-      refused.push_back({i, problem.what()});
+      refused.push_back({given.empty() ? i : given[i], problem.what()});
     }
   }
   if (!refused.empty()) throw error_of(scene, refused);

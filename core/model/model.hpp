@@ -157,7 +157,7 @@ struct Model {
 std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, std::uint32_t body);
 
 /// Throws SceneError when bodies cannot have their cover or be cut, PluginError when a builder makes what is
-/// no cover.
-Model build_model(const Scene& scene);
+/// no cover. `given`: [body] its number in the file of the scene, where that is another.
+Model build_model(const Scene& scene, std::span<const std::uint32_t> given = {});
 
 }  // namespace talus

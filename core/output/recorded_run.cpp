@@ -68,6 +68,7 @@ void step_to_the_end(const Course& course) {
     keeper.remember();
     result.writing += writing.elapsed();
     if (order.progress) order.progress(simulation.time());
+    if (!(simulation.time() < simulation.scene().time.end)) return;
   } while (course.goes_on());
 }
 
@@ -107,7 +108,8 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
     if (settle(course)) step_to_the_end(course);
   } catch (const NumericalTrouble& trouble) {
     result.end = RunEnd::stopped;
-    result.trouble = trouble.what();
+    result.trouble =
+        simulation.started() ? trouble.what() : fmt::format("while settling: {}", trouble.what());
     keeper.write_remembered("the last good state; then " + result.trouble);
   } catch (const std::system_error& failure) {
     keep_what_there_is(keeper, result, failure);

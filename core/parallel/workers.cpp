@@ -1,5 +1,11 @@
 #include "parallel/workers.hpp"
 
+#include "output/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
 namespace talus {
 namespace {
 
@@ -15,10 +21,22 @@ void relax() {
 }  // namespace
 
 Workers::Workers(int threads) : parts_(std::make_unique<Part[]>(static_cast<std::size_t>(threads))) {
-  for (int i = 1; i < threads; ++i) others_.emplace_back([this, i] { serve(static_cast<std::size_t>(i)); });
+  others_.reserve(static_cast<std::size_t>(threads) - 1);
+  try {
+    for (int i = 1; i < threads; ++i) others_.emplace_back([this, i] { serve(static_cast<std::size_t>(i)); });
+  } catch (const std::system_error& failure) {
+    const std::size_t started = others_.size() + 1;
+    close();
+    throw InputError(fmt::format("of {} threads the system started {}, no more: {}; take fewer by --threads",
+                                 threads, started, failure.code().message()));
+  }
 }
 
 Workers::~Workers() {
+  close();
+}
+
+void Workers::close() {
   closing_.store(true, std::memory_order_relaxed);
   round_.fetch_add(1);
   round_.notify_all();

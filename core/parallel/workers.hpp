@@ -16,7 +16,8 @@ namespace talus {
 /// core: those that are there do its part.
 class Workers {
  public:
-  /// The caller of over() is one of the `threads`.
+  /// The caller of over() is one of the `threads`. Throws InputError where the system has no room for so
+  /// many.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -53,6 +54,7 @@ class Workers {
 
  private:
   using Call = void (*)(const void* context, std::size_t chunk, std::size_t thread);
+  void close();
   void share(std::size_t chunks, Call call, const void* context);
   void serve(std::size_t number);
   void take_part(std::size_t number);

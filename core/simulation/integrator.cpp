@@ -168,6 +168,20 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
   return work;
 }
 
+Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment) {
+  const AreaMoments& m = body.moments;
+  const double density = body.mass / m.area;
+  const Matrix2 spin = unit_spin(h);
+  // The reaction is that of a spin, λ W F ρJ, with the work of the moments on a unit of spin.
+  const double work = moment.xx * spin.xx + moment.xy * spin.xy + moment.yx * spin.yx + moment.yy * spin.yy;
+  const double reaction = -density * work / product(m, density, spin, spin);
+  Matrix2 rest = moment;
+  add(rest, reaction,
+      {spin.xx * m.xx + spin.xy * m.xy, spin.xx * m.xy + spin.xy * m.yy, spin.yx * m.xx + spin.yy * m.xy,
+       spin.yx * m.xy + spin.yy * m.yy});
+  return rest;
+}
+
 Matrix2 spin_rate(const BodyMotion& motion) {
   const Matrix2 spin = unit_spin(motion.h);
   return {motion.spin * spin.xx, motion.spin * spin.xy, motion.spin * spin.yx, motion.spin * spin.yy};

@@ -48,6 +48,10 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
                             MotionState& motion, VelocitiesAtStep& at_step,
                             std::span<const OwnPatches> updated = {});
 
+/// The moments that deform a body, J/m, without what turns it as a whole about its centroid: where its
+/// rotation is prescribed, a support carries that. `h` is ∂u/∂X.
+Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment);
+
 /// Rate of H of a rigid body that spins.
 Matrix2 spin_rate(const BodyMotion& motion);
 

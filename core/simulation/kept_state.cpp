@@ -16,6 +16,7 @@ std::string Simulation::model_hash() const {
 void Simulation::exchange(Archive& archive) {
   State& s = *state_;
   archive(s.settling);
+  archive(s.settle_over);
   archive(s.stages_begun);
   if (archive.reading()) {
     if (s.stages_begun > s.scene.stages.size()) Archive::refuse();

@@ -33,10 +33,10 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   l.throughput = std::max({l.throughput, initial_, stored + lost, std::abs(l.external_work)});
 }
 
-void LedgerKeeper::lose_kinetic() {
+void LedgerKeeper::lose_kinetic(double rest) {
   // Half of the work of the present forces lies ahead; it goes with the velocities.
-  ledger_.global_damping_loss += ledger_.kinetic;
-  ledger_.kinetic = 0;
+  ledger_.global_damping_loss += ledger_.kinetic - rest;
+  ledger_.kinetic = rest;
   damping_ahead_ = work_ahead_ = 0;
 }
 

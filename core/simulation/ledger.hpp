@@ -16,8 +16,9 @@ class LedgerKeeper {
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work, double interface_work);
 
-  /// All velocities were just set to zero: their energy counts as taken by global damping.
-  void lose_kinetic();
+  /// Velocities were just set to zero but for those with a kinetic energy of `rest`, J/m: what went counts as
+  /// taken by global damping.
+  void lose_kinetic(double rest);
 
   /// Bodies went to sleep after book(): their kinetic energy, and what damping was to take from them over the
   /// half of the step that lies ahead.

@@ -23,31 +23,31 @@ void unit_spin(const Model& model, const Body& body, const MotionState& motion, 
   }
 }
 
-/// Moving the centre of mass and turning about it are orthogonal in the mass, so taking one out leaves the
-/// other as it is.
-void impose_supports(const Model& model, const PatchMass& mass, std::uint32_t index, const Support& support,
-                     const StepConditions& conditions, const Update& update, const MotionState& motion,
-                     std::span<const Vec2> before, std::span<Vec2> after, AccelerationWork& work) {
+/// Replaces the share that the motions which a support prescribes have in a field over the patches of a body:
+/// by what target(prescribed, generalised mass, share, motion) says. Moving the centre of mass and turning
+/// about it are orthogonal in the mass, so taking one out leaves the other as it is.
+template <class Target>
+void replace_supported(const Model& model, const PatchMass& mass, std::uint32_t index, const Support& support,
+                       const MotionState& motion, std::span<Vec2> field, const Target& target) {
   const Body& body = model.bodies[index];
   static thread_local std::vector<Vec2> mode;
-  const auto impose_mode = [&](const std::optional<double>& wanted) {
+  const auto replace_mode = [&](double prescribed) {
     const double inertia = mass.product(model, index, mode, mode);
-    const double value = mass.product(model, index, after, mode) / inertia;
-    const double value_before = mass.product(model, index, before, mode) / inertia;
-    const double target = impose(wanted, inertia, value, value_before, conditions, update, work);
-    for (std::size_t i = 0; i < after.size(); ++i) after[i] = along(after[i], target - value, mode[i]);
+    const double share = mass.product(model, index, field, mode) / inertia;
+    const double change = target(prescribed, inertia, share, mode) - share;
+    for (std::size_t i = 0; i < field.size(); ++i) field[i] = along(field[i], change, mode[i]);
   };
   if (support.x) {
-    mode.assign(after.size(), {1, 0});
-    impose_mode(support.x);
+    mode.assign(field.size(), {1, 0});
+    replace_mode(*support.x);
   }
   if (support.y) {
-    mode.assign(after.size(), {0, 1});
-    impose_mode(support.y);
+    mode.assign(field.size(), {0, 1});
+    replace_mode(*support.y);
   }
   if (support.rotation) {
     unit_spin(model, body, motion, mode);
-    impose_mode(support.rotation);
+    replace_mode(*support.rotation);
   }
 }
 
@@ -81,6 +81,12 @@ double product_at_step(const kernels::VelocitySums& sums, const StepConditions& 
 
 }  // namespace
 
+void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_t body,
+                         const Support& support, const MotionState& motion, std::span<Vec2> acceleration) {
+  replace_supported(model, mass, body, support, motion, acceleration,
+                    [](double, double, double, std::span<const Vec2>) { return 0.0; });
+}
+
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
                         const Support& support, const StepConditions& conditions, const Update& update,
                         const OwnPatches& own, MotionState& motion, VelocitiesAtStep& at_step,
@@ -101,7 +107,11 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                 update.keep * after[i].y + update.gain * acceleration.y};
     momentum = along(momentum, model.patch_mass[first + i], before[i]);
   }
-  impose_supports(model, mass, index, support, conditions, update, motion, before, after, work);
+  replace_supported(model, mass, index, support, motion, after,
+                    [&](double prescribed, double inertia, double value, std::span<const Vec2> mode) {
+                      const double value_before = mass.product(model, index, before, mode) / inertia;
+                      return impose(prescribed, inertia, value, value_before, conditions, update, work);
+                    });
   const double share = share_of_after(conditions);
   for (std::size_t i = 0; i < count; ++i)
     middle[i] = {before[i].x + share * (after[i].x - before[i].x),

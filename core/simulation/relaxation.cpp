@@ -1,6 +1,6 @@
 #include "simulation/relaxation.hpp"
 
-#include "simulation/integrator.hpp"
+#include "simulation/velocity_update.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,10 @@ BodyForce difference(const BodyForce& p, const BodyForce& q) {
 }  // namespace
 
 double Relaxation::damping(const Damping& how, const Model& model, const MotionState& motion, double dt) {
-  if (how.kind == Damping::Kind::constant) return how.constant;
-  if (how.kind == Damping::Kind::kinetic) return 0;
+  if (how.kind != Damping::Kind::adaptive) {
+    last_forces_.clear();  // they would be those of long ago
+    return how.kind == Damping::Kind::constant ? how.constant : 0;
+  }
   double stiffness = 0, inertia = 0;
   const bool can_tell = last_forces_.size() == motion.forces.size() && dt > 0;
   for (std::uint32_t b = 0; can_tell && b < model.bodies.size(); ++b) {
@@ -52,30 +54,46 @@ double Relaxation::damping(const Damping& how, const Model& model, const MotionS
   return inertia > 0 ? 2 * std::sqrt(std::max(0.0, stiffness / (dt * inertia))) : 0;
 }
 
-bool Relaxation::past_peak(const Damping& how, double kinetic) {
-  const bool past = how.kind == Damping::Kind::kinetic && kinetic < last_kinetic_;
-  last_kinetic_ = past ? 0 : kinetic;
+bool Relaxation::past_peak(const Damping& how, double kinetic, double gone) {
+  if (how.kind != Damping::Kind::kinetic) {
+    last_kinetic_ = 0;
+    return false;
+  }
+  const bool past = kinetic < last_kinetic_;
+  last_kinetic_ = past ? 0 : kinetic - gone;
   return past;
 }
 
-double Relaxation::unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) const {
+void Relaxation::forget() {
+  last_forces_.clear();
+  last_kinetic_ = 0;
+}
+
+double Relaxation::unbalanced(const Model& model, const MotionState& motion,
+                              std::span<const Support> supports, Vec2 gravity) const {
   double sum = 0;
   std::vector<Vec2> acceleration = motion.patch_force;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     if (body.kinematics == Kinematics::fixed) continue;
+    const Support& support = support_of(supports, b);
     if (body.kinematics == Kinematics::covered) {
       mass_.accelerations(model, b, acceleration);
-      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p)
-        sum += model.patch_mass[p] * size_of({acceleration[p].x + gravity.x, acceleration[p].y + gravity.y});
+      const std::span<Vec2> own(acceleration.data() + body.patch_begin, body.patch_end - body.patch_begin);
+      for (Vec2& of_patch : own) of_patch = {of_patch.x + gravity.x, of_patch.y + gravity.y};
+      leave_out_supported(model, mass_, b, support, motion, own);
+      for (std::size_t i = 0; i < own.size(); ++i)
+        sum += model.patch_mass[body.patch_begin + i] * size_of(own[i]);
       continue;
     }
     const BodyForce& force = motion.forces[b];
-    sum += size_of({force.force.x + body.mass * gravity.x, force.force.y + body.mass * gravity.y});
+    sum += size_of({support.x ? 0 : force.force.x + body.mass * gravity.x,
+                    support.y ? 0 : force.force.y + body.mass * gravity.y});
     if (body.kinematics == Kinematics::rigid) {
-      sum += std::abs(torque(motion.bodies[b], force)) / body.width;
+      sum += support.rotation ? 0 : std::abs(torque(motion.bodies[b], force)) / body.width;
     } else {
-      const Matrix2& q = force.moment;
+      const Matrix2 q =
+          support.rotation ? moment_without_spin(body, motion.bodies[b].h, force.moment) : force.moment;
       sum += std::sqrt(q.xx * q.xx + q.xy * q.xy + q.yx * q.yx + q.yy * q.yy) / body.width;
     }
   }

@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "simulation/patch_mass.hpp"
 
+#include <span>
 #include <vector>
 
 namespace talus {
@@ -20,13 +21,17 @@ class Relaxation {
   /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step.
   double damping(const Damping& how, const Model& model, const MotionState& motion, double dt);
 
-  /// Kinetic damping: whether the kinetic energy has passed a peak, so that all velocities are to be set to
-  /// zero.
-  bool past_peak(const Damping& how, double kinetic);
+  /// Kinetic damping: whether the kinetic energy, J/m, has passed a peak, so that all velocities are to be
+  /// set to zero. `gone` of it went with bodies that fell asleep since.
+  bool past_peak(const Damping& how, double kinetic, double gone = 0);
 
-  /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m; for a body that moves as a
-  /// whole, its resultant and its moments over its width.
-  double unbalanced(const Model& model, const MotionState& motion, Vec2 gravity) const;
+  /// The motion so far has nothing to do with what comes.
+  void forget();
+
+  /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m, without what supports
+  /// carry; for a body that moves as a whole, its resultant and its moments over its width.
+  double unbalanced(const Model& model, const MotionState& motion, std::span<const Support> supports,
+                    Vec2 gravity) const;
   void exchange(Archive& archive);
 
   static double weight(const Model& model, Vec2 gravity);

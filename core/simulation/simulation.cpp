@@ -61,17 +61,19 @@ Geometry Simulation::geometry() const {
 
 bool Simulation::settle(const Pause& pause) {
   State& s = *state_;
-  if (!s.scene.settle || s.started) return true;
+  if (!s.scene.settle || s.settle_over) return true;
   if (!s.settling) {
     s.settling = true;
     s.begin(s.scene.settle->duration);
   }
   while (s.time < s.scene.settle->duration && !s.settled()) {
-    if (pause && pause()) return false;
     s.step(s.scene.settle->duration);
+    if (pause && pause()) return false;
   }
   s.settling = false;
+  s.settle_over = true;
   s.motion.stop();
+  s.relaxation.forget();
   s.time = 0;
   s.ledger.reset();
   return true;

@@ -214,15 +214,17 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
 
 void Sleep::wake(std::span<const std::uint32_t> numbers, double time, Parts parts) {
   if (numbers.empty()) return;
-  for (const std::uint32_t number : numbers) {
-    const auto island =
-        std::find_if(islands_.begin(), islands_.end(), [&](const Island& p) { return p.number == number; });
-    enter(*island, time, past_);
+  const auto wakes = [&](std::uint32_t number) {
+    return std::binary_search(numbers.begin(), numbers.end(), number);
+  };
+  std::erase_if(islands_, [&](const Island& island) {
+    if (!wakes(island.number)) return false;
+    enter(island, time, past_);
     ++past_.woken;
-    islands_.erase(island);
-  }
+    return true;
+  });
   for (std::size_t b = 0; b < island_.size(); ++b) {
-    if (std::find(numbers.begin(), numbers.end(), island_[b]) == numbers.end()) continue;
+    if (island_[b] == 0 || !wakes(island_[b])) continue;
     island_[b] = 0;
     quiet_since_[b] = time;
   }

@@ -42,7 +42,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       settings(settings_in),
       stage(settings_of(scene)),
       workers(settings.threads),
-      model(build_model(scene)),
+      model(build_model(scene, numbering.outer)),
       motion(model),
       blocks(model, scene.simd, workers, scene.contact.component != nullptr),
       mass(model),
@@ -125,8 +125,8 @@ void Simulation::State::forces() {
   profile.enter(Phase::materials);
   if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
-    unbalanced_share =
-        relaxation.unbalanced(model, motion, pull) / (Relaxation::weight(model, pull) + loads.applied());
+    unbalanced_share = relaxation.unbalanced(model, motion, stage.supports, pull) /
+                       (Relaxation::weight(model, pull) + loads.applied());
   }
   const double damping = relaxation.damping(how, model, motion, dt_behind);
   const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
@@ -140,15 +140,13 @@ void Simulation::State::forces() {
                                            at_time, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
+  Sleep::Taken taken{};
   if (may_sleep_now) {
-    const Sleep::Taken taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
+    taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
     ledger.lose_asleep(taken.kinetic, taken.damping_loss_ahead);
   }
   last_gravity = pull;
-  if (relaxation.past_peak(how, work.kinetic)) {
-    motion.stop();
-    ledger.lose_kinetic();
-  }
+  if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop();
   profile.enter(Phase::checks);
   fresh = false;
 }
@@ -174,7 +172,10 @@ double Simulation::State::evaluate_contacts() {
     sleep->wake(contacts.touched(), time, sleeping_parts());
     contact_totals.stored += sleep->contact_energy();
   }
-  if (observed) check_law();
+  if (observed) {
+    check_shapes();
+    check_law();
+  }
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;
   return work;
@@ -204,17 +205,20 @@ bool Simulation::State::settled() const {
   return scene.settle->until && summary.settle_steps > 0 && unbalanced_share < *scene.settle->until;
 }
 
+/// Of several that are due at once the last one holds.
 void Simulation::State::begin_due_stages() {
   if (settling) return;
-  while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding)) {
-    const StageSettings& next = scene.stages[stages_begun++].settings;
-    if (sleep) sleep->begin_stage(next, time, sleeping_parts());
-    enter_stage(next);
-    interfaces_changed = true;
-    loads.replace(Loads(scene, stage, model));
-    critical = votes.among(contacts.lightest_neighbours());
-    summary.critical_dt = std::min(summary.critical_dt, critical.dt);
-  }
+  const std::size_t before = stages_begun;
+  while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding))
+    ++stages_begun;
+  if (stages_begun == before) return;
+  const StageSettings& next = scene.stages[stages_begun - 1].settings;
+  if (sleep) sleep->begin_stage(next, time, sleeping_parts());
+  enter_stage(next);
+  interfaces_changed = true;
+  loads.replace(Loads(scene, stage, model));
+  critical = votes.among(contacts.lightest_neighbours());
+  summary.critical_dt = std::min(summary.critical_dt, critical.dt);
 }
 
 /// All but loads, which let go of what they held.
@@ -260,14 +264,19 @@ void Simulation::State::make_plan(double end) {
   }
   planned_with = critical;
   const double target = end;
-  if (!settling && stages_begun < scene.stages.size()) end = std::min(end, scene.stages[stages_begun].from);
+  // A stage a rounding before the output begins with it: no step is as short as that.
+  if (!settling && stages_begun < scene.stages.size() &&
+      scene.stages[stages_begun].from < target * (1 - rounding))
+    end = std::min(end, scene.stages[stages_begun].from);
   const double span = end - time;
   const double wanted = std::max(1.0, std::ceil(span / dt * (1 - rounding)));
   if (!(wanted <= countable_steps)) {
-    throw InputError(
-        fmt::format("from t = {:.6g} s to the next output at {:.6g} s there are {:.3g} steps of {:.3g} s, "
-                    "more than any run can do: expected at most {:.0e}",
-                    time, end, wanted, dt, countable_steps));
+    const std::string words = fmt::format(
+        "from t = {:.6g} s to the next output at {:.6g} s there are {:.3g} steps of {:.3g} s, "
+        "more than any run can do: expected at most {:.0e}",
+        time, end, wanted, dt, countable_steps);
+    if (dt_behind == 0) throw InputError(words);
+    throw NumericalTrouble(words);
   }
   const auto steps = static_cast<std::uint64_t>(wanted);
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
@@ -309,6 +318,26 @@ void Simulation::State::check_numbers() const {
       fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
                   "take a smaller time step",
                   time, plan.dt, critical.dt));
+}
+
+/// At output times. What is turned inside out passes through others unseen.
+void Simulation::State::check_shapes() const {
+  const auto refuse = [&](std::uint32_t body, const char* what) {
+    throw NumericalTrouble(
+        fmt::format("{} turned inside out at t = {:.9g} s: {}; its material is too soft for what acts on it, "
+                    "or the step {:.3g} s "
+                    "(critical {:.3g} s) too large: raise young_modulus, given in Pa, or take a smaller step",
+                    place(body), time, what, plan.dt, critical.dt));
+  };
+  const auto inverted = [](const Matrix2& h) { return !((1 + h.xx) * (1 + h.yy) - h.xy * h.yx > 0); };
+  for (const std::uint32_t body : model.moving_bodies) {
+    if (!model.covered(body) && inverted(motion.bodies[body].h)) refuse(body, "its area became negative");
+  }
+  if (model.covered_bodies.empty()) return;
+  for (const Element& element : model.elements) {
+    if (model.covered(element.body) && inverted(gradient(element, motion.patch_displacement)))
+      refuse(element.body, "the area of an element became negative");
+  }
 }
 
 /// At output times, and where something is no number.
@@ -433,19 +462,48 @@ Vec2 Simulation::State::displacement_at_start(const Carrier& carrier) const {
 void Simulation::State::set_initial_velocities() {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (model.covered(static_cast<std::uint32_t>(i))) motion.average(model, static_cast<std::uint32_t>(i));
-    BodyMotion& body = motion.bodies[i];
     const SceneBody& given = scene.bodies[i];
-    body.velocity = {given.support.x.value_or(given.velocity.x), given.support.y.value_or(given.velocity.y)};
-    body.spin = given.support.rotation.value_or(given.angular_velocity);
-    if (!model.moves(static_cast<std::uint32_t>(i))) body.velocity = {}, body.spin = 0;
-    body.rate = spin_rate(body);
-    for (std::uint32_t p = model.bodies[i].patch_begin; p < model.bodies[i].patch_end; ++p) {
-      const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
-                    model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
-      motion.patch_velocity[p] = {body.velocity.x - body.spin * at.y, body.velocity.y + body.spin * at.x};
+    if (model.moves(static_cast<std::uint32_t>(i))) {
+      set_rigid_motion(
+          i, {given.support.x.value_or(given.velocity.x), given.support.y.value_or(given.velocity.y)},
+          given.support.rotation.value_or(given.angular_velocity));
+    } else {
+      set_rigid_motion(i, {}, 0);
     }
-    if (model.bodies[i].kinematics != Kinematics::rigid) body.spin = 0;
   }
+}
+
+/// Of a body whose mean motion is that of its patches now.
+void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, double spin) {
+  BodyMotion& body = motion.bodies[index];
+  body.velocity = velocity;
+  body.spin = spin;
+  body.rate = spin_rate(body);
+  for (std::uint32_t p = model.bodies[index].patch_begin; p < model.bodies[index].patch_end; ++p) {
+    const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
+                  model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
+    motion.patch_velocity[p] = {velocity.x - spin * at.y, velocity.y + spin * at.x};
+  }
+  if (model.bodies[index].kinematics != Kinematics::rigid) body.spin = 0;
+}
+
+/// All velocities but those that supports drive.
+void Simulation::State::stop() {
+  motion.stop();
+  double driven = 0;
+  for (std::uint32_t i = 0; i < model.bodies.size() && !settling; ++i) {
+    const Support& support = support_of(stage.supports, i);
+    if (!support.any() || !model.moves(i)) continue;
+    const Body& body = model.bodies[i];
+    if (model.covered(i)) motion.average(model, i);
+    set_rigid_motion(i, {support.x.value_or(0), support.y.value_or(0)}, support.rotation.value_or(0));
+    const BodyMotion& now = motion.bodies[i];
+    const std::span<const Vec2> patches(motion.patch_velocity.data() + body.patch_begin,
+                                        body.patch_end - body.patch_begin);
+    driven += model.covered(i) ? mass.product(model, i, patches, patches) / 2
+                               : kinetic_energy(body, body.mass / body.moments.area, now, now);
+  }
+  ledger.lose_kinetic(driven);
 }
 
 }  // namespace talus

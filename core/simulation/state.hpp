@@ -45,6 +45,7 @@ struct Simulation::State {
   double time = 0;       ///< s, t_n
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
   bool settling = false;
+  bool settle_over = false;  ///< there is nothing left of the settle stage
   bool fresh = true;         ///< no contact has been evaluated yet
   bool observed = true;      ///< somebody may look at t_n
   bool started = false;      ///< t = 0 has been reached
@@ -102,6 +103,7 @@ struct Simulation::State {
   double energy_floor() const;
   void remember_deepest();
   void check_numbers() const;
+  void check_shapes() const;
   void check_law() const;
   void check_step() const;
   void check_balance();
@@ -111,6 +113,8 @@ struct Simulation::State {
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();
+  void set_rigid_motion(std::size_t body, Vec2 velocity, double spin);
+  void stop();
   std::string place(std::uint32_t body) const;
 
   // Between steps; see Simulation::exchange().

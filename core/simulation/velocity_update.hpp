@@ -39,6 +39,10 @@ inline double share_of_after(const StepConditions& conditions) {
   return conditions.dt_behind / (conditions.dt_behind + conditions.dt_ahead);
 }
 
+/// Takes what supports prescribe out of accelerations of the patches of a body of many elements.
+void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_t body,
+                         const Support& support, const MotionState& motion, std::span<Vec2> acceleration);
+
 /// The patches of a body of many elements.
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
                         const StepConditions& conditions, const Update& update, const OwnPatches& updated,

@@ -136,6 +136,25 @@ TEST_CASE("Materials, stages, settling and loads go on with the same bits", "[ch
   check_goes_on(from_text(fixed_between), 7);
 }
 
+TEST_CASE("A state kept when the settle stage has just ended does not settle again", "[checkpoint]") {
+  const Scene scene = from_text(driven_stages);
+  Simulation whole(scene, {});
+  whole.settle();
+  Archive kept;
+  whole.exchange(kept);
+  while (whole.advance()) {
+  }
+  Simulation again(scene, {});
+  Archive restored(kept.bytes());
+  again.exchange(restored);
+  const std::uint64_t settled = again.summary().settle_steps;
+  CHECK(again.settle());
+  CHECK(again.summary().settle_steps == settled);
+  while (again.advance()) {
+  }
+  CHECK(again.state_hash() == whole.state_hash());
+}
+
 TEST_CASE("Islands asleep go on with the same bits", "[checkpoint]") {
   const Scene scene = shipped(
       "column", {{"/time/end", "1.2"}, {"/sleep", R"({"after": 0.2, "speed": 1e-3, "acceleration": 1e-2})"}});

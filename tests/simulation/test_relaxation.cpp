@@ -45,3 +45,65 @@ TEST_CASE("relaxation finds the weight on the table and ends when forces balance
     }
   }
 }
+
+TEST_CASE("kinetic damping stops what is free and leaves what is driven its way",
+          "[simulation][relaxation]") {
+  for (const char* cover : {"rigid", "block"}) {
+    for (const char* driven : {"", R"(, "cover": {"model": "hexagonal", "size": 0.5})"}) {
+      INFO(cover << driven);
+      WorkingScene text;
+      text.cover = cover;
+      text.gravity = "[0, -10]";
+      text.bodies =
+          box("table", 3, -1, 6, 0, R"("fixed": true)") + ", " +
+          box("d", -1, 0, 0, 1, R"("drive": {"x": 1, "y": 0, "rotation": 0})" + std::string(driven)) + ", " +
+          box("a", 4, 0.01, 5, 1);
+      text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                          "normal_damping": 0, "tangential_damping": 0)";
+      text.rest = R"("damping": "kinetic",)";
+      text.time =
+          R"({"end": 0.5, "dt": 1e-5})";  // at the automatic one the balance is lost by blocks that ring
+      const Simulation simulation = run_to_end(text);
+      CHECK(simulation.body_motion(1).displacement.x == Approx(0.5).epsilon(1e-9));
+      CHECK(std::abs(simulation.body_motion(2).velocity.y) < 0.02);  // free, it would bounce with 0.4 m/s
+      CHECK(residual_share(simulation.ledger()) < 2e-3);
+    }
+  }
+}
+
+TEST_CASE("what a settle stage saw of energy and forces says nothing of what comes",
+          "[simulation][relaxation]") {
+  for (const char* damping : {R"("kinetic")", R"("adaptive")"}) {
+    INFO(damping);
+    WorkingScene text;
+    text.gravity = "[0, -10]";
+    text.bodies = box("table", -3, -1, 9, 0, R"("fixed": true)") + ", " + box("a", 0, 5, 1, 6) + ", " +
+                  box("b", 3, 5, 4, 6, R"("velocity": [0.001, 0])");
+    text.rest = fmt::format(R"("settle": {{"duration": 0.01, "damping": {0}}}, "damping": {0},)", damping);
+    text.time = R"({"end": 0.001, "dt": 1e-5})";
+    CHECK(run_to_end(text).body_motion(2).displacement.x == Approx(1e-6).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what a support carries is not out of balance", "[simulation][relaxation]") {
+  for (const char* cover :
+       {R"({"model": "rigid"})", R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})"}) {
+    INFO(cover);
+    WorkingScene text = resting(cover, "adaptive");
+    text.bodies = box("table", -3, -1, 3, 0, R"("fix": ["x", "y", "rotation"])") + ", " +
+                  box("a", -1, 0, 1, 1, R"("cover": )" + std::string(cover));
+    Simulation simulation(text.read(), {});
+    simulation.settle();
+    CHECK(static_cast<double>(simulation.summary().settle_steps) < 2.5 / simulation.critical_dt());
+  }
+}
+
+TEST_CASE("settling goes on however often it is left off", "[simulation][settle]") {
+  WorkingScene text = resting(R"({"model": "rigid"})", "adaptive");
+  text.rest = R"("settle": {"duration": 0.01, "damping": 10},)";
+  Simulation whole(text.read(), {}), often(text.read(), {});
+  whole.settle();
+  int calls = 1;
+  while (!often.settle([] { return true; })) REQUIRE(++calls < 100000);
+  CHECK(often.state_hash() == whole.state_hash());
+}

@@ -219,3 +219,49 @@ TEST_CASE("ground that moves ever faster works on a free body by the mean of bot
     CHECK(simulation.summary().largest_residual_share <= 1e-6);
   }
 }
+
+TEST_CASE("a stage a rounding before an output begins with it", "[simulation][stages]") {
+  const auto run = [](const char* from) {
+    WorkingScene text = resting();
+    text.time = R"({"end": 0.4})";
+    text.output = R"({"history": 0.1})";
+    text.rest =
+        fmt::format(R"("stages": [{{"name": "same", "from": {}, "set": {{"/gravity": [0, -10]}}}}],)", from);
+    return run_to_end(text);
+  };
+  // 3 · 0.1 is the next double after 0.3.
+  const Simulation before = run("0.3"), at = run("0.30000000000000004");
+  CHECK(before.summary().steps == at.summary().steps);
+  CHECK(before.state_hash() == at.state_hash());
+}
+
+TEST_CASE("of stages that begin at once the last holds, and energy is booked from before the first",
+          "[simulation][stages]") {
+  WorkingScene text = resting();
+  text.time = R"({"end": 0.1})";
+  text.rest = R"("settle": {"duration": 0.3, "damping": 300},
+                 "stages": [{"name": "soft", "from": 0.05, "set": {"/interfaces/0/normal_stiffness": 4e9}},
+                            {"name": "softer", "from": 0.05000000001, "set": {"/interfaces/0/normal_stiffness": 8e9}}],)";
+  const Simulation both = [&] {
+    Simulation simulation(text.read(), {});
+    simulation.settle();
+    while (simulation.advance()) {
+    }
+    return simulation;
+  }();
+  CHECK(both.ledger().residual / both.ledger().throughput == Approx(0).margin(0.02));
+}
+
+TEST_CASE("a body that was turned inside out stops the run, however it is covered", "[simulation][trouble]") {
+  for (const char* cover : {R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})"}) {
+    INFO(cover);
+    WorkingScene text = resting();
+    text.bodies = box("base", -1, -1, 3, 0, R"("fixed": true)") + ", " +
+                  box("a", 0, 0, 2, 1, R"("cover": )" + std::string(cover));
+    text.material =
+        R"("density": 2300, "model": "linear_elastic", "young_modulus": 5, "poisson_ratio": 0.25)";
+    text.rest = R"("limits": {"penetration": 100, "energy_residual": 1e9},)";
+    text.time = R"({"end": 2})";
+    CHECK_THROWS_WITH(run_to_end(text), Catch::Contains("inside out") && Catch::Contains("young_modulus"));
+  }
+}
