@@ -2,6 +2,8 @@
 
 #include "geometry/vanishing_depth.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,13 +20,29 @@ constexpr double clear_share = 0.8;
 
 void noop(void* /*object*/) noexcept {}
 
-/// Whether laws may take it for one convex piece of one surface class all around.
-bool is_plain(const Model& model, const Body& body) {
+/// [surface class] the first that meets all others at the same interfaces.
+std::vector<std::uint32_t> alike_surfaces(const Interfaces& interfaces) {
+  const std::uint32_t count = interfaces.surface_count;
+  std::vector<std::uint32_t> alike(count);
+  for (std::uint32_t surface = 0; surface < count; ++surface) {
+    const std::uint32_t* const row = interfaces.row + std::size_t{surface} * count;
+    while (!std::equal(row, row + count, interfaces.row + std::size_t{alike[surface]} * count))
+      ++alike[surface];
+  }
+  return alike;
+}
+
+/// Whether laws may take it for one convex piece of one surface class all around: of several that are alike,
+/// the first stands for all.
+bool is_plain(const Model& model, const Body& body, const std::vector<std::uint32_t>& alike) {
   if (!model.one_piece(body)) return false;
   if (body.corner_end - body.corner_begin > std::numeric_limits<std::uint16_t>::max()) return false;
-  const std::uint32_t surface = model.surface[body.corner_begin];
+  const auto surface_of = [&](std::uint32_t corner) {
+    const std::uint32_t surface = model.surface[corner];
+    return surface < alike.size() ? alike[surface] : surface;
+  };
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-    if (model.surface[c] != surface || surface == internal_side) return false;
+    if (surface_of(c) != surface_of(body.corner_begin) || model.surface[c] == internal_side) return false;
   }
   return true;
 }
@@ -43,10 +61,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
       loads_(model, level, workers) {
-  for (const Body& body : model.bodies) {
-    fixed_.push_back(body.kinematics == Kinematics::fixed);
-    plain_.push_back(is_plain(model, body) ? 1 : 0);
-  }
+  for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
   if (scene.contact.component == nullptr) return;
   const MotionState at_start(model);
   for (std::size_t p = 0; p < model.piece_body.size(); ++p) {
@@ -57,9 +72,27 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   history_doubles_ = law_->doubles_per_contact();
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
                  scene.contact.component->component->interface_parameter_count};
+  const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
+  for (const Body& body : model.bodies) plain_.push_back(is_plain(model, body, alike) ? 1 : 0);
   set_interfaces(scene.interface_values);
+  refuse_unsound_stiffness(*scene.contact.component);
   if (scene.roles_by_priority) {
     for (const SceneBody& body : scene.bodies) priority_.push_back(body.priority);
+  }
+}
+
+/// The time step is voted by them. Stages write other numbers into the same formulas.
+void ContactStage::refuse_unsound_stiffness(const RegisteredComponent& law) const {
+  for (std::size_t at = 0; at < interface_values_.size(); at += interfaces_.parameter_count) {
+    const ContactStiffness found = law_->stiffness(&interface_values_[at], 1);
+    for (const double value :
+         {found.normal, found.tangential, found.normal_damping_ratio, found.tangential_damping_ratio}) {
+      if (std::isfinite(value) && value >= 0) continue;
+      throw PluginError(
+          fmt::format("{}: contact law '{}' gave {} as a stiffness or damping ratio of an "
+                      "interface; wanted finite numbers from 0 on; mend the law",
+                      law.file.string(), law.component->name, value));
+    }
   }
 }
 

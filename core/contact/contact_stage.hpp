@@ -82,6 +82,7 @@ class ContactStage {
   static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
   static constexpr double in_this_step = -1;  ///< of ask_again_
 
+  void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
   void share_anew(const Model& model);

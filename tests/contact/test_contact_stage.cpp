@@ -383,3 +383,18 @@ TEST_CASE("seeking the candidates anew every step changes no bit", "[contact][st
   CHECK(with == without);
   CHECK(searches * 10 < all_searches);
 }
+
+TEST_CASE("edges that are named, but meet all others alike, change no bits", "[contact]") {
+  const auto run = [](const std::string& names) {
+    WorkingScene text;
+    text.cover = "block";
+    text.gravity = "[1, -10]";
+    text.bodies = box("base", -1, -1, 4, 0, R"("fixed": true)") + ", " + box("a", 0, 0, 1, 1, names) + ", " +
+                  box("b", 1, 0, 2, 1.5, names) + ", " + box("c", 0.3, 1.6, 1.2, 2.2, names);
+    text.time = R"({"end": 0.2})";
+    return run_to_end(text).state_hash();
+  };
+  const std::string plain = run("");
+  CHECK(run(R"("surfaces": {"beds": [0, 2]})") == plain);
+  CHECK(run(R"("surfaces": {"beds": [0, 2], "heads": [1, 3]})") == plain);
+}
