@@ -28,7 +28,7 @@ std::vector<ReducedRun> by_factor(std::vector<ReducedRun> runs) {
 }
 
 std::string safety_csv(const Scene& scene, const Safety& safety) {
-  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],moving bodies\n";
+  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
     std::string moving;
     for (const std::size_t body : run.moving) moving += (moving.empty() ? "" : " ") + scene.bodies[body].name;
@@ -60,7 +60,7 @@ void say_result(const Scene& scene, const Safety& safety) {
                                      [&](const ReducedRun& run) { return run.factor == *safety.falls; });
     std::vector<std::string> names;
     for (const std::size_t body : fallen->moving) names.push_back(scene.bodies[body].name);
-    if (!names.empty()) fmt::print("moving on at {:.4g}: {}\n", fallen->factor, listed(names));
+    if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen->factor, listed(names));
   } else if (safety.falls) {
     fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
                1 / *safety.falls);

@@ -13,6 +13,7 @@ namespace talus {
 namespace {
 
 constexpr double seen = 1e-3;    ///< share of the width
+constexpr double lost = 0.05;    ///< share of the width: whatever stops further on has failed, too
 constexpr double stride = 1.25;  ///< of the factor, while neither bound is known
 
 /// Divides what of these values is strength; returns whether any is.
@@ -90,9 +91,10 @@ class Reduction {
         result.displacement = end.moved[i];
         result.body = i;
       }
-      const bool far = end.moved[i] > seen * simulation.body_width(i),
-                 on = end.moved[i] - middle.moved[i] > end.moved[i] / 2 && end.speed[i] >= middle.speed[i];
-      if (far && on) result.moving.push_back(i);
+      const double width = simulation.body_width(i);
+      const bool goes_on =
+          end.moved[i] - middle.moved[i] > end.moved[i] / 2 && end.speed[i] >= middle.speed[i];
+      if (end.moved[i] > lost * width || (end.moved[i] > seen * width && goes_on)) result.moving.push_back(i);
     }
     result.kinetic = simulation.ledger().kinetic;
     result.collapsed = !result.moving.empty();

@@ -20,7 +20,7 @@ struct ReducedRun {
   double displacement = 0;          ///< m, the largest of a body
   std::size_t body = 0;             ///< that body
   double kinetic = 0;               ///< J/m at the end
-  std::vector<std::size_t> moving;  ///< bodies that move on, where it collapsed
+  std::vector<std::size_t> moving;  ///< bodies that failed, where it collapsed
   std::string trouble;              ///< what stopped it, if anything did
 };
 
@@ -42,8 +42,9 @@ struct Safety {
 
 /// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
 /// All runs start from the geometry that the scene settles into with its full strength, and last as long as
-/// the scene says. A body moves on if it moved by more than 1/1000 of its width, more than half of it in the
-/// second half of the time, and is no slower at the end than in the middle; the scene collapses if one does.
+/// the scene says. A body has failed if it moved by more than 1/20 of its width, wherever it stopped, or moves
+/// on: by more than 1/1000 of its width, more than half of it in the second half of the time, and no slower at
+/// the end than in the middle. The scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus

@@ -40,12 +40,12 @@ TEST_CASE(
   const double degree = std::numbers::pi / 180, due = std::tan(31 * degree) / std::tan(30 * degree);
   CHECK(stands <= due);
   CHECK(due <= collapses);
-  CHECK_THAT(call.out, Contains("moving on at ") && Contains("results in results"));
+  CHECK_THAT(call.out, Contains("failing at ") && Contains("results in results"));
 
   std::istringstream csv(read_whole_file(scratch / "results/safety.csv"));
   std::string line;
   std::getline(csv, line);
-  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],moving bodies");
+  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies");
   double last_factor = 0;
   int last_collapsed = 0, rows = 0;
   for (; std::getline(csv, line); ++rows) {

@@ -79,6 +79,26 @@ TEST_CASE("Two wedges have the factor of limit equilibrium", "[safety][slow_sani
   CHECK(factor_of(scene) == Approx(due).epsilon(0.01));
 }
 
+TEST_CASE("What slid and came to rest further down has failed", "[safety]") {
+  // 35° with friction of 25°: the block slides half a metre into a buttress, long before the end.
+  const std::string bodies = fmt::format(
+      R"({{"name": "base", "polygon": [[-4, -5], [6, -5], [6, {0}], [-4, {1}]], "material": "rock", "fixed": true}},
+         {{"name": "a", "polygon": [[0, 0], [{2}, {3}], [{4}, {5}], [{6}, {7}]], "material": "rock"}},
+         {{"name": "buttress", "polygon": [[{8}, {9}], [{10}, {11}], [{12}, {13}], [{14}, {15}]], "material": "rock",
+           "fixed": true}})",
+      -6 * std::tan(35 * degree), 4 * std::tan(35 * degree), std::cos(35 * degree), -std::sin(35 * degree),
+      std::cos(35 * degree) + std::sin(35 * degree), -std::sin(35 * degree) + std::cos(35 * degree),
+      std::sin(35 * degree), std::cos(35 * degree), 1.5 * std::cos(35 * degree), -1.5 * std::sin(35 * degree),
+      2.5 * std::cos(35 * degree), -2.5 * std::sin(35 * degree),
+      2.5 * std::cos(35 * degree) + std::sin(35 * degree),
+      -2.5 * std::sin(35 * degree) + std::cos(35 * degree),
+      1.5 * std::cos(35 * degree) + std::sin(35 * degree),
+      -1.5 * std::sin(35 * degree) + std::cos(35 * degree));
+  Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 25, "", bodies));
+  scene.time.end = 3;
+  CHECK(factor_of(scene) == Approx(std::tan(25 * degree) / std::tan(35 * degree)).epsilon(0.02));
+}
+
 TEST_CASE("What cannot stand, and what stands whatever is taken, are told apart", "[safety]") {
   const Safety fallen = factor_of_safety(
       shipped("stick_31deg", {{"/interfaces/0/friction_angle", "1"}, {"/time/end", "1"}}), {.lowest = 0.5});
