@@ -12,8 +12,9 @@ namespace talus {
 
 namespace {
 
-std::string left_text(double share, double elapsed) {
-  return share > 0 ? clock_text(elapsed * (1 - share) / share) : std::string("-:--");
+/// After `done` of the work, on which `elapsed` seconds went.
+std::string left_text(double share, double done, double elapsed) {
+  return done > 0 ? clock_text(elapsed * (1 - share) / done) : std::string("-:--");
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ void Progress::draw_bar(double share, const std::string& words, double elapsed) 
   constexpr int width = 30;
   const int filled = static_cast<int>(share * width);
   fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {} left\033[K", "", filled, "", width - filled,
-             std::floor(100 * share), words, left_text(share, elapsed));
+             std::floor(100 * share), words, left_text(share, share - begin_, elapsed));
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -59,7 +60,7 @@ void Progress::print_line(double share, const std::string& words, double elapsed
   if (tenths <= tenths_) return;
   tenths_ = tenths;
   const std::string text = fmt::format("{} %  {}  {} passed, {} left", tenths * 10, words,
-                                       clock_text(elapsed), left_text(share, elapsed));
+                                       clock_text(elapsed), left_text(share, share - begin_, elapsed));
   log_.info("progress", text, {{"share", share}, {"elapsed [s]", elapsed}});
 }
 

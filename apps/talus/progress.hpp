@@ -20,6 +20,9 @@ class Progress {
   /// `share` of the work is done; `words` say where it is.
   void show(double share, const std::string& words);
 
+  /// What comes goes on from there: of the time left only the rest tells.
+  void begin_at(double share) { begin_ = share; }
+
   /// Removes the bar, so that other lines can follow.
   void clear();
 
@@ -33,6 +36,7 @@ class Progress {
   enum class Style { none, bar, lines } style_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};
+  double begin_ = 0;  ///< share of the work that was done before
   bool drawn_ = false;
   int tenths_ = 0;  ///< last tenth that was printed
 };

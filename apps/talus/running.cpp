@@ -138,7 +138,11 @@ int conduct(Simulation& simulation, RunOrder& order, const po::variables_map& gi
             {"threads", order.settings.threads},
             {"version", TALUS_VERSION}});
   Progress progress(log, quiet);
-  if (scene.settle) progress.show(0, "settling");
+  if (order.from != nullptr) {
+    progress.begin_at(order.from->settling ? 0 : order.from->time / scene.time.end);
+  } else if (scene.settle) {
+    progress.show(0, "settling");
+  }
   order.progress = [&](double time) {
     progress.show(time / scene.time.end, fmt::format("t = {:.4g} of {:.4g} s", time, scene.time.end));
   };

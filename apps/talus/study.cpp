@@ -23,7 +23,8 @@ Usage usage_of_study() {
       "SCENE",
       "  talus study scenes/incline.json --vary /time/dt=6e-5,3e-5,1.5e-5 --vary "
       "/contact/model=overlap_area,vertex_edge\n"
-      "  talus study scenes/collision.json --vary /interfaces/0/normal_stiffness=1e8:1e10 --sample 12\n"};
+      "  talus study scenes/collision.json --vary /interfaces/0/normal_stiffness=1e8:1e10 --sample 12 --set "
+      "/time/dt=auto\n"};
   add_study_options(usage);
   return usage;
 }

@@ -182,6 +182,12 @@ void check_order(const ComparisonOrder& order) {
   }
   const std::vector<std::string> columns = monitor_columns(order.scenes[0]);
   if (columns.empty()) throw InputError("the scene has no monitors, so there is nothing to compare");
+  const double end = order.scenes[0].time.end;
+  for (const double moment : order.moments) {
+    if (!(moment >= 0 && moment <= end))
+      throw InputError(
+          fmt::format("--at {}: the runs go from 0 to {} s, so there is nothing to tell", moment, end));
+  }
   if (!order.reference) return;
   const std::vector<std::string>& names = order.reference->series.names;
   for (const std::string& column : columns) {

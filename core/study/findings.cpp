@@ -107,6 +107,13 @@ double number_of(const StudyPlan& plan, std::size_t variation, std::size_t run) 
   return number_in(plan.points[run].values[variation]).value_or(0);
 }
 
+std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findings) {
+  if (!findings.reference) return "the reference file";
+  const std::string run = plan.words(plan.points[*findings.reference]);
+  if (!findings.reference_is_one_of_many) return run + " (most work)";
+  return run + " (first of several that did the most work, and no better than they are: give a --reference)";
+}
+
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
                        const std::optional<Series>& reference) {
   StudyFindings findings;
@@ -114,7 +121,12 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
   findings.runs.resize(runs.size());
   const std::optional<std::size_t> finest = most_work(runs);
   if (!finest) throw InputError("no run of the study finished: there is nothing to measure");
-  if (!reference) findings.reference = finest;
+  if (!reference) {
+    findings.reference = finest;
+    findings.reference_is_one_of_many = std::count_if(runs.begin(), runs.end(), [&](const StudyRun& run) {
+                                          return finished(run) && run.work == runs[*finest].work;
+                                        }) > 1;
+  }
   const Series& due = reference ? *reference : runs[*finest].history;
   const auto due_column = due.column(column);
   if (!due_column) {

@@ -35,11 +35,15 @@ struct ObservedOrder : StudyFamily {
 };
 
 struct StudyFindings {
-  std::string column;                    ///< "<monitor>.<quantity> [unit]"
-  std::optional<std::size_t> reference;  ///< the run that the others are measured against; none: a file
+  std::string column;                     ///< "<monitor>.<quantity> [unit]"
+  std::optional<std::size_t> reference;   ///< the run that the others are measured against; none: a file
+  bool reference_is_one_of_many = false;  ///< others did as much work, so it may be no better than they are
   std::vector<StudyFinding> runs;
   std::vector<ObservedOrder> orders;
 };
+
+/// What the errors are measured against, in words.
+std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findings);
 
 /// Of `column`, from `reference` or else from the run that finished with the most work. Throws InputError
 /// where the runs or the reference have no such column, or no run finished.

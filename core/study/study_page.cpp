@@ -115,9 +115,7 @@ std::string cost_note(const std::vector<StudyRun>& runs) {
 
 std::string study_page(const std::string& title, const std::string& command, const StudyPlan& plan,
                        const std::vector<StudyRun>& runs, const StudyFindings& findings) {
-  const std::string against =
-      findings.reference ? plan.words(plan.points[*findings.reference]) + ", the run with the most work"
-                         : "the reference file";
+  const std::string against = words_of_reference(plan, findings);
   std::string main = tiles_of(runs, findings);
   main += card("Error against cost", cost_note(runs), drawing(study_svg(plan, runs, findings)), false);
   for (const std::string& chart : order_charts(plan, runs, findings))

@@ -90,9 +90,7 @@ std::string study_table(const StudyPlan& plan, const std::vector<StudyRun>& runs
   std::size_t width = 4;
   for (const StudyPoint& point : plan.points) width = std::max(width, plan.words(point).size());
   std::string text =
-      fmt::format("error of {} against {}\n", findings.column,
-                  findings.reference ? plan.words(plan.points[*findings.reference]) + " (most work)"
-                                     : std::string("the reference file"));
+      fmt::format("error of {} against {}\n", findings.column, words_of_reference(plan, findings));
   text += fmt::format("  {:<{}}{:>11}{:>11}{:>12}{:>12}{:>14}\n", "", width, "error", "CPU [s]", "dt [s]",
                       "residual", "overlap [m]");
   for (const std::size_t i : by_cost(runs)) {

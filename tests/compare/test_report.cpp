@@ -15,6 +15,7 @@ ComparisonOrder example_order() {
   order.scenes.resize(2);
   for (Scene& scene : order.scenes) {
     scene.file = "incline.json";
+    scene.time.end = 2;
     scene.monitors = {{"block", 0, {}, {"speed"}}};
   }
   order.scenes[0].tolerances = {{"block", "speed", false, 0.5, {}, {}}};
@@ -101,6 +102,9 @@ TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") 
 TEST_CASE("an order that compares nothing is refused", "[compare][report]") {
   ComparisonOrder order = example_order();
   CHECK_NOTHROW(check_order(order));
+  order.moments = {order.scenes[0].time.end, 99};
+  CHECK_THROWS_WITH(check_order(order), Contains("--at 99"));
+  order.moments.pop_back();
   order.reference = ReferenceFile{"curve.csv", "", {{0}, {"block.speed [km/h]"}, {{0}}}};
   CHECK_THROWS_WITH(check_order(order), Contains("km/h") && Contains("block.speed [m/s]"));
   order.reference.reset();
