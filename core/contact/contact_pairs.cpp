@@ -8,9 +8,9 @@
 namespace talus {
 namespace {
 
-/// Share of the mean width by which boxes are grown at least: bodies that only rounding makes overlap are
-/// candidates with the skin off, too.
-constexpr double rounding = 1e-9;
+/// Share of the mean width by which boxes are grown with the skin off: laws see a little further than bodies
+/// overlap, vertex_edge a hundredth of an edge.
+constexpr double beyond = 0.02;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
 
 }  // namespace
@@ -27,13 +27,12 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
       share_anew(model);
     return false;
   }
-  const double rounded = rounding * model.mean_width;
   if (due) {
-    search_.find(model, motion, std::max(near_, rounded), candidates_);
+    search_.find(model, motion, near_, candidates_);
     note_neighbours(model);
     slack_ = near_ / 2;
   }
-  if (every_step) search_.find(model, motion, rounded, candidates_);
+  if (every_step) search_.find(model, motion, beyond * model.mean_width, candidates_);
   rebuild_pairs(model);
   travelled_ = 0;
   ++searches_;

@@ -7,8 +7,9 @@
 
 Needs Python 3 alone. --picture FILE says where the picture goes; default: vaiont.svg beside this script.
 
-Times are those of frames, every 0.1 s. The slide hits when a block of it first has a contact with the far bank. The
-mean velocity weighs each block by its area. It is at rest when the mean speed stays below 0.1 m/s to the end.
+Times are those of frames, every 0.1 s. The mean velocity weighs each block by its area. The mass hits the far bank in
+the middle of the time in which its mean velocity is within 2 % of the peak, and is at rest when it stays below 1 % of
+that to the end; so does the mean speed, of single blocks too, below 0.1 m/s.
 """
 import argparse
 import csv
@@ -115,9 +116,11 @@ def measure(folder):
                 sections["hit"] = (time, section)
         last = (time, section)
     sections["end"] = last
-    moving = [time for time, speed in zip(result["times"], result["speed"]) if speed >= REST]
-    ended = not moving or moving[-1] < result["times"][-1]
-    result["rest"] = (moving[-1] if moving else 0.0) if ended else None
+    peak = max(result["mean"])
+    fast = [time for time, speed in zip(result["times"], result["mean"]) if speed > 0.98 * peak]
+    result["fast"] = fast[0], fast[-1]
+    result["rest"] = quiet_from(result["times"], result["mean"], 0.01 * peak)
+    result["still"] = quiet_from(result["times"], result["speed"], REST)
     corners = [corner for block, _ in last[1].blocks for corner in block]
     result["front"] = max(x for x, _ in corners)
     result["run_up"] = max((y - LEVEL for x, y in corners if x >= FOOT), default=None)
@@ -125,6 +128,14 @@ def measure(folder):
         rows = list(csv.DictReader(file))
     result["history"] = {key: [float(row[key]) for row in rows] for key in rows[0]}
     return result, sections
+
+
+def quiet_from(times, values, limit):
+    """The time from which the values stay below the limit; None if that of the last frame does not."""
+    moving = [i for i, value in enumerate(values) if value >= limit]
+    if not moving:
+        return times[0]
+    return times[moving[-1] + 1] if moving[-1] + 1 < len(times) else None
 
 
 def text(value, unit, digits=1):
@@ -135,7 +146,9 @@ def report(result):
     history = result["history"]
     peak = max(result["mean"])
     rows = [("blocks", str(result["blocks"])), ("area of the section", f"{result['area']:.0f} m2"),
-            ("hits the far bank at", text(result["hit"], "s")),
+            ("first block on the far bank", text(result["hit"], "s")),
+            ("the mass hits the far bank", "{:.1f} s, the middle of {:.1f} to {:.1f} s".format(
+                sum(result["fast"]) / 2, *result["fast"])),
             ("peak of the mean velocity",
              f"{peak:.1f} m/s at {result['times'][result['mean'].index(peak)]:.1f} s")]
     time = history["t [s]"]
@@ -145,7 +158,9 @@ def report(result):
         ux, uy = history[f"{name}.ux [m]"][-1], history[f"{name}.uy [m]"][-1]
         rows.append((f"displacement, {name}", f"{math.hypot(ux, uy):.0f} m"))
     rows += [("run-up above the floor of the gorge", text(result["run_up"], "m", 0)),
-             ("at rest from", text(result["rest"], "s")), ("front at the end", f"x = {result['front']:.0f} m")]
+             ("mean velocity below 1 % of its peak from", text(result["rest"], "s")),
+             (f"mean speed below {REST:g} m/s from", text(result["still"], "s")),
+             ("mean speed at the end", text(result["speed"][-1], "m/s", 3)), ("front at the end", f"x = {result['front']:.0f} m")]
     for label, value in rows:
         print(f"| {label} | {value} |")
 
