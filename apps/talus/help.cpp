@@ -15,7 +15,9 @@ constexpr std::array codes{
     Explained{"0", "all is well"},
     Explained{"1", "an error within the program; a check of check-plugin failed, verify missed a figure"},
     Explained{"2", "bad input: the scene or the command line"},
-    Explained{"3", "a plugin was refused, or a scene names libraries and --allow-plugins is missing"},
+    Explained{
+        "3",
+        "a library that was named was refused, or a scene names libraries and --allow-plugins is missing"},
     Explained{"4", "numerical trouble stopped a run"},
     Explained{"5", "a file could not be read or written"},
     Explained{"6", "a tolerance that the scene states was broken"},

@@ -2,8 +2,10 @@
 
 #include "output/input_error.hpp"
 #include "output/run_record.hpp"
+#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -51,6 +53,17 @@ Scene scene_of(const Checkpoint& checkpoint, Registry& registry, const Log& log)
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& given) {
   return std::filesystem::is_directory(given) ? given / checkpoint_name : given;
+}
+
+std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& given) {
+  const std::filesystem::path file = checkpoint_file(given), record = given / "run.json";
+  if (!std::filesystem::exists(file) && std::filesystem::exists(record)) {
+    const nlohmann::json run = nlohmann::json::parse(read_whole_file(record), nullptr, false);
+    if (run.is_object() && run.value("end", "") == "finished")
+      throw InputError(
+          fmt::format("the run in '{}' is at its end, so nothing is kept to go on with", given.string()));
+  }
+  return file;
 }
 
 KeptRun::KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,

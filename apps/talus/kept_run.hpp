@@ -13,6 +13,9 @@ namespace talus {
 /// The checkpoint that is meant by a file or by the folder of a run.
 std::filesystem::path checkpoint_file(const std::filesystem::path& given);
 
+/// The same. Throws InputError where the run is at its end and none was kept.
+std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& given);
+
 /// The simulation of a checkpoint as it was started, and what it points into. Throws InputError where it
 /// would not be the same: another instruction set, library or file that the scene names.
 struct KeptRun {

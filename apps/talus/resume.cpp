@@ -32,7 +32,7 @@ int resume_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const Log log = log_of(usage, *given);
-  const std::filesystem::path file = checkpoint_file(text_option(*given, "CHECKPOINT"));
+  const std::filesystem::path file = checkpoint_to_go_on_from(text_option(*given, "CHECKPOINT"));
   const Checkpoint checkpoint = read_checkpoint(file);
 
   RunOrder order;

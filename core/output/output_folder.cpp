@@ -1,6 +1,7 @@
 #include "output/output_folder.hpp"
 
 #include "checkpoint/checkpoint.hpp"
+#include "output/folder_lock.hpp"
 #include "output/input_error.hpp"
 
 #include <fmt/format.h>
@@ -51,8 +52,9 @@ void prepare_output_folder(const fs::path& folder, bool overwrite) {
         "folder",
         folder.string(), results[0].filename().string()));
   }
-  for (const fs::path& file : results) fs::remove(file);
   fs::create_directories(folder);
+  const FolderLock mine(folder);
+  for (const fs::path& file : results) fs::remove(file);
 }
 
 }  // namespace talus

@@ -4,8 +4,9 @@
 
 namespace talus {
 
-/// Makes the folder that results go to. One that holds results already is refused (InputError), or with
-/// `overwrite` cleared of them: of files that talus writes, never of others.
+/// Makes the folder that results go to. One that holds results already, or that another run writes into, is
+/// refused (InputError); with `overwrite` it is cleared of results: of files that talus writes, never of
+/// others.
 void prepare_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "output/recorded_run.hpp"
 
+#include "output/folder_lock.hpp"
 #include "output/recorder.hpp"
 #include "output/run_keeper.hpp"
 #include "output/run_record.hpp"
@@ -95,6 +96,7 @@ void step_to_the_end(const Course& course) {
 
 RunResult record_run(Simulation& simulation, const RunOrder& order) {
   RunResult result;
+  const FolderLock mine(order.folder);
   write_whole_file(order.folder / "resolved.json", simulation.scene().resolved + "\n");
   Recorder recorder(simulation, order.folder);
   RunKeeper keeper(order, simulation, recorder, result);
@@ -130,6 +132,7 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
         static_cast<double>(result.blocks) * static_cast<double>(result.summary.steps) / result.stepping.wall;
   }
   write_whole_file(order.folder / "run.json", run_record(simulation.scene(), order, result));
+  if (result.end == RunEnd::finished) keeper.drop();
   return result;
 }
 

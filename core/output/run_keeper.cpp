@@ -73,4 +73,11 @@ void RunKeeper::write_remembered(const std::string& reason) {
   write_checkpoint(result_.checkpoint, remembered_);
 }
 
+void RunKeeper::drop() {
+  if (!order_.checkpoints) return;
+  std::error_code kept;  // a folder that nothing can be removed from spoils no results
+  std::filesystem::remove(order_.folder / checkpoint_name, kept);
+  result_.checkpoint.clear();
+}
+
 }  // namespace talus

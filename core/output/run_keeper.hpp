@@ -24,6 +24,9 @@ class RunKeeper {
   void remember();
   void write_remembered(const std::string& reason);
 
+  /// Of a run that is at its end nothing is left to go on with.
+  void drop();
+
  private:
   using Clock = std::chrono::steady_clock;
   double wall() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }  ///< s

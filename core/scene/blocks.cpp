@@ -104,6 +104,10 @@ class Expander {
       for (std::size_t i = 0; i < blocks.size(); ++i)
         bodies_.push_back(body_of(blocks[i], fmt::format("{}_{}", name, i + 1), joints.surfaces, written));
       result.warnings.insert(result.warnings.end(), joints.warnings.begin(), joints.warnings.end());
+      if (blocks.size() == 1) {
+        result.warnings.push_back(fmt::format(
+            "{}: '{}' stays one block: nothing cuts its domain from side to side", pointer, name));
+      }
     }
     if (bodies_.size() == first && !name.empty()) {
       result.unmade.push_back(name);

@@ -64,6 +64,10 @@ TEST_CASE("resume goes on with what Ctrl-C broke off, and results are those of o
   REQUIRE(call.code == 0);
   check_same_results(scratch, "broken", "whole");
   CHECK(json_of(scratch / "broken/run.json")["continued [s]"].size() == 2);
+  CHECK_FALSE(std::filesystem::exists(scratch / "broken/checkpoint.talus"));
+  call = call_talus(scratch.folder(), {"resume", "broken"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("the run in 'broken' is at its end"));
 }
 
 TEST_CASE("kill -9 at any moment leaves a checkpoint that goes on to the same bits", "[apps][resume]") {

@@ -168,3 +168,11 @@ TEST_CASE("blocks that are no list of generators are refused in words", "[blocks
   REQUIRE(at_blocks != found.end());
   CHECK_THAT(at_blocks->message, Contains("3 is not allowed here: expected a list of generators"));
 }
+
+TEST_CASE("joints that cut nothing are told of", "[blocks]") {
+  const Scene whole = sample::read(generator_scene(R"("joints": [{"points": [[-1, 0.5], [0.9, 0.5]]}])"));
+  CHECK(whole.bodies.size() == 1);
+  REQUIRE(whole.warnings.size() == 1);
+  CHECK_THAT(whole.warnings[0], Contains("'b' stays one block"));
+  CHECK(sample::read(generator_scene(grid)).warnings.empty());
+}

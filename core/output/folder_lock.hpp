@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+namespace talus {
+
+/// A folder that one program at a time writes into. The system lets go of it with the program, however that
+/// ends, and nothing is left behind. Throws InputError while another has it; where a file system knows no
+/// locks there is none.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+}  // namespace talus
