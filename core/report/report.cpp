@@ -6,6 +6,7 @@
 #include "output/shell_word.hpp"
 #include "output/vtu.hpp"
 #include "output/whole_file.hpp"
+#include "plugin/registry.hpp"
 #include "report/assets.hpp"
 #include "report/film.hpp"
 #include "report/html_page.hpp"
@@ -14,7 +15,9 @@
 #include <zlib.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -131,6 +134,7 @@ Json run_json(const fs::path& folder, const std::string& name) {
           {"record", json_in(folder / "run.json")},
           {"bodies", bodies_json(resolved)},
           {"monitors", monitors_json(resolved)},
+          {"names_libraries", resolved.contains("plugins") && !resolved["plugins"].empty()},
           {"history", curves_in(folder / "history.csv")},
           {"energy", curves_in(folder / "energy.csv")},
           {"film", film_json(read_film(folder))}};
@@ -146,10 +150,27 @@ std::string settings_words(const Json& record, const std::string& but) {
   return words;
 }
 
+/// What a shell must say for the libraries of all runs to be found again.
+std::string plugin_words(const Json& runs) {
+  if (runs.at(0).at("names_libraries")) return " --allow-plugins";
+  const std::vector<fs::path> known = search_path({});
+  std::set<std::string> folders;
+  for (const Json& run : runs) {
+    for (const Json& plugin : run.at("record").at("plugins")) {
+      const fs::path folder = fs::path(plugin.at("path").get<std::string>()).lexically_normal().parent_path();
+      if (std::find(known.begin(), known.end(), folder) == known.end()) folders.insert(folder.string());
+    }
+  }
+  std::string words;
+  for (const std::string& folder : folders) words += " --plugin-path " + shell_word(folder);
+  return words;
+}
+
 std::string command_of(const Json& page) {
   const Json& record = page.at("runs").at(0).at("record");
   const std::string scene = shell_word(record.at("scene").at("file"));
-  if (page["comparison"].is_null()) return "talus run " + scene + settings_words(record, "");
+  if (page["comparison"].is_null())
+    return "talus run " + scene + settings_words(record, "") + plugin_words(page.at("runs"));
   const Json& comparison = page["comparison"];
   std::string varied = comparison.at("varied");
   for (const Json& run : comparison.at("runs"))
@@ -157,7 +178,7 @@ std::string command_of(const Json& page) {
   std::string command = "talus compare " + scene + " --vary " + shell_word(varied);
   if (comparison.contains("reference"))
     command += " --reference " + shell_word(comparison.at("reference").at("file").get<std::string>());
-  return command + settings_words(record, comparison.at("varied"));
+  return command + settings_words(record, comparison.at("varied")) + plugin_words(page.at("runs"));
 }
 
 Json page_json(const fs::path& folder) {

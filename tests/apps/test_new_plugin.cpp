@@ -31,6 +31,11 @@ void require_whole(const std::string& kind) {
   INFO(tested.out << tested.err);
   CHECK(tested.code == 0);
   CHECK_THAT(tested.out, Contains("100% tests passed, 0 tests failed out of 4"));
+  const Call reported = installed.shell(
+      "talus run my_first/scene.json --plugin-path gcc --set /time/end=0.01 --out ran && "
+      "grep -o -e 'talus run [^\"]*--plugin-path [^\"]*gcc' ran/report.html");
+  INFO(reported.out << reported.err);
+  CHECK(reported.code == 0);  // the command on the page finds the plugin again
   if (!has_compiler("clang++")) {
     WARN("clang++ is not installed: a generated plugin built by it is not tested");
     return;
