@@ -61,7 +61,7 @@ Geometry Simulation::geometry() const {
 
 bool Simulation::settle(const Pause& pause) {
   State& s = *state_;
-  if (!s.scene.settle || s.settle_over) return true;
+  if (!s.scene.settle || s.settle_over || s.started) return true;
   if (!s.settling) {
     s.settling = true;
     s.begin(s.scene.settle->duration);
