@@ -42,9 +42,9 @@ struct Safety {
 
 /// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
 /// All runs start from the geometry that the scene settles into with its full strength, and last as long as
-/// the scene says. A body has failed if it moved by more than 1/20 of its width, wherever it stopped, or moves
-/// on: by more than 1/1000 of its width, more than half of it in the second half of the time, and no slower at
-/// the end than in the middle. The scene collapses if one has.
+/// the scene says. A body has failed if it moved by more than 1/20 of its width, wherever it stopped, or
+/// moves on: by more than 1/1000 of its width, more than half of it in the second half of the time, and no
+/// slower at the end than in the middle. The scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus
