@@ -56,7 +56,8 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& given) {
 }
 
 std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& given) {
-  const std::filesystem::path file = checkpoint_file(given), record = given / "run.json";
+  std::filesystem::path file = checkpoint_file(given);
+  const std::filesystem::path record = given / "run.json";
   if (!std::filesystem::exists(file) && std::filesystem::exists(record)) {
     const nlohmann::json run = nlohmann::json::parse(read_whole_file(record), nullptr, false);
     if (run.is_object() && run.value("end", "") == "finished")

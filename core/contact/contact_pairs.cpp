@@ -10,7 +10,7 @@ namespace {
 
 /// Share of the mean width by which boxes are grown with the skin off: laws see a little further than bodies
 /// overlap, vertex_edge a hundredth of an edge.
-constexpr double beyond = 0.02;
+constexpr double sight = 0.02;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
 
 }  // namespace
@@ -32,7 +32,7 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
     note_neighbours(model);
     slack_ = near_ / 2;
   }
-  if (every_step) search_.find(model, motion, beyond * model.mean_width, candidates_);
+  if (every_step) search_.find(model, motion, sight * model.mean_width, candidates_);
   rebuild_pairs(model);
   travelled_ = 0;
   ++searches_;
