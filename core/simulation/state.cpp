@@ -13,17 +13,9 @@
 namespace talus {
 namespace {
 
-constexpr double speed_share = 0.1;     ///< of the smallest width, that two bodies may approach in a step
-constexpr double warn_residual = 0.01;  ///< of the energy throughput
-constexpr double rounding = 1e-9;       ///< share by which a step may be stretched rather than split in two
-/// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
-constexpr double restless = 0.4;
+constexpr double rounding = 1e-9;  ///< share by which a step may be stretched rather than split in two
 /// Up to the next output: centuries of computing, and still a whole number in a double.
 constexpr double countable_steps = 1e15;
-constexpr double too_fast = 1.5;  ///< times the allowed step: plan anew, or stop where the step is fixed
-
-/// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
-constexpr double initial_overlap = 1e-6;
 
 /// What each step of a body of many elements reads and writes in memory.
 void lay_in_large_pages(const Partition& partition, const MotionState& motion) {
@@ -297,147 +289,10 @@ std::string Simulation::State::limiter() const {
   return limiter_of_automatic(scene, planned_with);
 }
 
-std::string Simulation::State::place(std::uint32_t body) const {
-  const Vec2 centre = model.bodies[body].centre;
-  const Vec2 u = motion.displacement(model.point(body, {}));
-  return fmt::format("'{}' at ({:.6g}, {:.6g}) m", scene.bodies[body].name, scene.origin.x + centre.x + u.x,
-                     scene.origin.y + centre.y + u.y);
-}
-
 void Simulation::State::remember_deepest() {
   if (contact_totals.penetration <= summary.largest_penetration) return;
   summary.largest_penetration = contact_totals.penetration;
   deepest_pair = {contact_totals.deepest_a, contact_totals.deepest_b};
-}
-
-/// Before contacts are evaluated with it: the law's fault is still what led here.
-void Simulation::State::check_numbers() const {
-  if (std::isfinite(speeds.largest)) return;
-  if (contacts.law() != nullptr) check_law();
-  throw NumericalTrouble(
-      fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
-                  "take a smaller time step",
-                  time, plan.dt, critical.dt));
-}
-
-/// At output times. What is turned inside out passes through others unseen.
-void Simulation::State::check_shapes() const {
-  const auto refuse = [&](std::uint32_t body, const char* what) {
-    throw NumericalTrouble(
-        fmt::format("{} turned inside out at t = {:.9g} s: {}; its material is too soft for what acts on it, "
-                    "or the step {:.3g} s "
-                    "(critical {:.3g} s) too large: raise young_modulus, given in Pa, or take a smaller step",
-                    place(body), time, what, plan.dt, critical.dt));
-  };
-  const auto inverted = [](const Matrix2& h) { return !((1 + h.xx) * (1 + h.yy) - h.xy * h.yx > 0); };
-  for (const std::uint32_t body : model.moving_bodies) {
-    if (!model.covered(body) && inverted(motion.bodies[body].h)) refuse(body, "its area became negative");
-  }
-  if (model.covered_bodies.empty()) return;
-  for (const Element& element : model.elements) {
-    if (model.covered(element.body) && inverted(gradient(element, motion.patch_displacement)))
-      refuse(element.body, "the area of an element became negative");
-  }
-}
-
-/// At output times, and where something is no number.
-void Simulation::State::check_law() const {
-  const LawFault& fault = contacts.fault();
-  if (fault.found.empty()) return;
-  const RegisteredComponent& law = *scene.contact.component;
-  const std::string where =
-      fault.of_pair ? fmt::format(" between {} and {}", place(fault.a), place(fault.b)) : "";
-  throw NumericalTrouble(
-      fmt::format("{}: contact law '{}' gave {}{} at t = {:.9g} s; wanted finite loads that are equal and "
-                  "opposite and leave no "
-                  "moment, written at the corners of the pairs it is given; mend the law or choose another",
-                  law.file.string(), law.component->name, fault.found, where, time));
-}
-
-void Simulation::State::check_step() const {
-  if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
-    throw NumericalTrouble(
-        fmt::format("the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
-                    "m/s, {:.3g} m in a "
-                    "step of {:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; the step is {:.2g} "
-                    "of the critical {:.3g} "
-                    "s; take a smaller one, /time/dt below {:.3g} or \"auto\"",
-                    time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
-                    model.smallest_width, plan.dt / critical.dt, critical.dt, allowed_dt()));
-  }
-  const ContactTotals& totals = contact_totals;
-  if (totals.penetration == 0) return;
-  const Body &a = model.bodies[totals.deepest_a], &b = model.bodies[totals.deepest_b];
-  const double width = std::min(a.width, b.width), visible = 0.9 * std::min(a.contact_depth, b.contact_depth);
-  if (!(totals.penetration <= std::min(scene.limits.penetration * width, visible))) {
-    if (visible < scene.limits.penetration * width) {
-      throw NumericalTrouble(
-          fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than the "
-                      "{:.3g} m behind the "
-                      "boundary of a body of many elements that contact can see; raise normal_stiffness of "
-                      "their interface, "
-                      "take a larger size of elements or a smaller time step, or part them at the start",
-                      time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration, visible));
-    }
-    throw NumericalTrouble(
-        fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.0f} % "
-                    "of the smaller width "
-                    "{:.3g} m; raise normal_stiffness of their interface, take a smaller time step, or part "
-                    "them at the start",
-                    time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration,
-                    100 * scene.limits.penetration, width));
-  }
-}
-
-void Simulation::State::check_balance() {
-  const double share = ledger.residual_share();
-  if (share > summary.largest_residual_share) {
-    if (share > warn_residual && summary.largest_residual_share <= warn_residual) {
-      summary.warnings.push_back(fmt::format(
-          "the energy balance misses {:.3g} % of the throughput at t = {:.6g} s", 100 * share, time));
-    }
-    summary.largest_residual_share = share;
-  }
-  if (share <= scene.limits.energy_residual) return;
-  const std::string deepest =
-      contact_totals.penetration > 0
-          ? fmt::format("; deepest contact {:.3g} m between {} and {}", contact_totals.penetration,
-                        place(contact_totals.deepest_a), place(contact_totals.deepest_b))
-          : "";
-  throw NumericalTrouble(
-      fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
-                  "throughput {:.3g} J/m, the "
-                  "limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the critical {:.3g} s ({}): take a "
-                  "smaller one, or damp the "
-                  "contacts",
-                  time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
-                  100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  limiter_of(scene, critical)));
-}
-
-void Simulation::State::warn_of_large_step() {
-  if (!scene.time.dt) return;
-  if (plan.dt > critical.dt) {
-    summary.warnings.push_back(
-        fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): the run may blow up",
-                    plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical)));
-  } else if (plan.dt > restless * critical.spring_dt) {
-    summary.warnings.push_back(fmt::format(
-        "the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s of contacts and supports alone (body "
-        "'{}'); above {} of it contacts gain or lose energy",
-        plan.dt, plan.dt / critical.spring_dt, critical.spring_dt, scene.bodies[critical.spring_body].name,
-        restless));
-  }
-}
-
-void Simulation::State::warn_of_initial_overlap() {
-  const ContactTotals& totals = contact_totals;
-  if (scene.settle || totals.penetration == 0) return;
-  const double width = std::min(model.bodies[totals.deepest_a].width, model.bodies[totals.deepest_b].width);
-  if (totals.penetration <= initial_overlap * width) return;
-  summary.warnings.push_back(fmt::format(
-      "{} and {} overlap by {:.3g} m at the start and will be thrown apart; part them or add a settle stage",
-      place(totals.deepest_a), place(totals.deepest_b), totals.penetration));
 }
 
 /// Follows each body through full turns: the angle since the last time is less than half of one.

@@ -83,6 +83,11 @@ struct Simulation::State {
   RunSummary summary;
   std::pair<std::uint32_t, std::uint32_t> deepest_pair{0, 0};  ///< bodies of the largest overlap so far
 
+  /// Of the smallest width, that two bodies may approach in a step.
+  static constexpr double speed_share = 0.1;
+  /// Times the allowed step: plan anew, or stop where the step is fixed.
+  static constexpr double too_fast = 1.5;
+
   void begin(double end);  ///< plans the way to the first target and finds the velocity at the present time
   void step(double next_end);  ///< one step; when it reaches its target it plans on to next_end
   void make_plan(double end);
