@@ -12,7 +12,7 @@ namespace {
 
 constexpr double warn_residual = 0.01;  ///< of the energy throughput
 /// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
-constexpr double restless = 0.4;
+constexpr double lively = 0.4;
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
 constexpr double initial_overlap = 1e-6;
 
@@ -136,12 +136,12 @@ void Simulation::State::warn_of_large_step() {
     summary.warnings.push_back(
         fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): the run may blow up",
                     plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical)));
-  } else if (plan.dt > restless * critical.spring_dt) {
+  } else if (plan.dt > lively * critical.spring_dt) {
     summary.warnings.push_back(fmt::format(
         "the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s of contacts and supports alone (body "
         "'{}'); above {} of it contacts gain or lose energy",
         plan.dt, plan.dt / critical.spring_dt, critical.spring_dt, scene.bodies[critical.spring_body].name,
-        restless));
+        lively));
   }
 }
 
