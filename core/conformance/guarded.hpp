@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -22,13 +23,13 @@ class Guarded {
 
   void resize(std::size_t count, unsigned char inside) {
     count_ = count;
-    bytes_.assign((count + 2 * margin) * sizeof(T), 0);
-    if (count > 0) std::memset(bytes_.data() + margin * sizeof(T), inside, count * sizeof(T));
+    lines_.assign((all() + sizeof(Line) - 1) / sizeof(Line), {});
+    if (count > 0) std::memset(bytes() + zone, inside, count * sizeof(T));
   }
 
   std::size_t size() const { return count_; }
-  T* data() { return reinterpret_cast<T*>(bytes_.data()) + margin; }
-  const T* data() const { return reinterpret_cast<const T*>(bytes_.data()) + margin; }
+  T* data() { return reinterpret_cast<T*>(bytes() + zone); }
+  const T* data() const { return reinterpret_cast<const T*>(bytes() + zone); }
   T& operator[](std::size_t i) { return data()[i]; }
   const T& operator[](std::size_t i) const { return data()[i]; }
   T* begin() { return data(); }
@@ -37,22 +38,32 @@ class Guarded {
   const T* end() const { return data() + count_; }
 
   void surround(unsigned char value) {
-    std::memset(bytes_.data(), value, margin * sizeof(T));
-    std::memset(bytes_.data() + (margin + count_) * sizeof(T), value, margin * sizeof(T));
+    std::memset(bytes(), value, zone);
+    std::memset(bytes() + all() - zone, value, zone);
   }
   bool surrounded_by(unsigned char value) const {
-    const std::size_t zone = margin * sizeof(T), after = (margin + count_) * sizeof(T);
-    for (std::size_t i = 0; i < zone; ++i) {
-      if (bytes_[i] != value || bytes_[after + i] != value) return false;
-    }
-    return true;
+    const auto same = [value](unsigned char byte) { return byte == value; };
+    const unsigned char* const after = bytes() + all() - zone;
+    return std::all_of(bytes(), bytes() + zone, same) && std::all_of(after, after + zone, same);
   }
-  bool same_bytes(const Guarded& other) const { return bytes_ == other.bytes_; }
+  bool same_bytes(const Guarded& other) const {
+    return count_ == other.count_ && std::memcmp(bytes(), other.bytes(), all()) == 0;
+  }
 
  private:
-  static constexpr std::size_t margin = 16;  ///< entries; two of the widest vectors of doubles
+  static constexpr std::size_t zone = 16 * sizeof(T);  ///< of doubles two of the widest vectors
 
-  std::vector<unsigned char> bytes_;  // aligned as `new` aligns: for every type here
+  /// What no type here wants to be aligned more than.
+  struct alignas(64) Line {
+    unsigned char byte[64];
+  };
+  static_assert(alignof(T) <= alignof(Line));
+
+  std::size_t all() const { return 2 * zone + count_ * sizeof(T); }  ///< bytes
+  unsigned char* bytes() { return lines_.data()->byte; }
+  const unsigned char* bytes() const { return lines_.data()->byte; }
+
+  std::vector<Line> lines_;
   std::size_t count_ = 0;
 };
 

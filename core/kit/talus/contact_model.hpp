@@ -9,7 +9,7 @@ inline constexpr std::uint32_t internal_side = 0xFFFFFFFFu;
 
 /// A corner of a piece and the side that starts there. One line of a cache, first what tells whether pieces
 /// meet.
-struct BoundaryCorner {
+struct alignas(64) BoundaryCorner {
   double x, y;                  ///< m
   double tangent_x, tangent_y;  ///< unit tangent of the side; 0 for a side without length
   double vx, vy;                ///< m/s, at t_n - dt/2 (Eq. 22): x_n - x_{n-1} = v dt
