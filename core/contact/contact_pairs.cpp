@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace talus {
@@ -12,14 +13,19 @@ namespace {
 /// overlap, vertex_edge a hundredth of an edge.
 constexpr double sight = 0.02;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
+/// For so many steps a drift is counted on: what pulls all bodies makes little of it meanwhile.
+constexpr std::uint32_t steps_of_drift = 32;
 
 }  // namespace
 
-bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double travelled) {
+bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double dt,
+                              const MotionState::Speeds& speeds) {
   if (!law_) return false;
   // Both bodies of a pair may have moved; the boxes leave half of what is near to each.
-  slack_ -= travelled;
-  travelled_ += travelled;
+  slack_ -= dt * speeds.closing();
+  way_.time += dt;
+  way_.strayed += 2 * dt * speeds.stray;
+  if (++steps_adrift_ == steps_of_drift) renew_drift(model, motion);
   const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
   if (!due && !every_step) {
     if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
@@ -31,12 +37,35 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
     search_.find(model, motion, near_, candidates_);
     note_neighbours(model);
     slack_ = near_ / 2;
+    renew_drift(model, motion);
   }
   if (every_step) search_.find(model, motion, sight * model.mean_width, candidates_);
   rebuild_pairs(model);
-  travelled_ = 0;
   ++searches_;
   return due;
+}
+
+/// From now on what every corner does is told from how it moves now. Of the way to a pair as much is left as
+/// was before.
+void ContactStage::renew_drift(const Model& model, const MotionState& motion) {
+  for (std::size_t b = 0; b < drift_.size(); ++b) {
+    if (fixed_[b] != 0) continue;
+    kernels::Drift& drift = drift_[b] = {motion.bodies[b].velocity, 0};
+    const Body& body = model.bodies[b];
+    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+      const BoundaryCorner& corner = motion.corners[c];
+      corner_drift_[c] = {corner.vx, corner.vy};
+      const double x = corner.vx - drift.mean.x, y = corner.vy - drift.mean.y;
+      drift.spread = std::max(drift.spread, x * x + y * y);
+    }
+    drift.spread = std::sqrt(drift.spread);
+  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    ask_again_[i] = std::max(0.0, ask_again_[i] - way_.of(approach_[i]));
+    approach_[i] = drift_[pairs_[i].a].approach(drift_[pairs_[i].b]);
+  }
+  way_ = {0, 0};
+  steps_adrift_ = 0;
 }
 
 void ContactStage::note_neighbours(const Model& model) {
@@ -89,6 +118,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
   }
   ask_again_.assign(pairs_.size(), 0.0);
+  approach_.assign(pairs_.size(), 0.0);
 
   // History goes with its pair: both lists are sorted by bodies.
   damping_power_.assign(pairs_.size(), 0.0);

@@ -60,7 +60,9 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       keeps_stored_(scene.sleep.has_value()),
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
-      loads_(model, level, workers) {
+      loads_(model, level, workers),
+      corner_drift_(model.reference_x.size()),
+      drift_(model.bodies.size()) {
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
   if (scene.contact.component == nullptr) return;
   const MotionState at_start(model);
@@ -120,14 +122,14 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
   touched_.clear();
   fault_ = {};
   chunk_totals_.assign(chunk_totals_.size(), {});
-  evaluate(model, motion, conditions, travelled_);
-  while (wake_touched()) evaluate(model, motion, conditions, in_this_step);
+  evaluate(model, motion, conditions, way_);
+  while (wake_touched()) evaluate(model, motion, conditions, no_way);
   return totals();
 }
 
 /// Of the pairs whose time has come (see ask_again_), wave after wave of them.
 void ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
-                            double until) {
+                            const kernels::Way& until) {
   const auto close_batch = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
     close(model, batch, active, found);
   };
@@ -136,7 +138,7 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
     ask(model, motion, conditions, now, until, true, close_batch);
     while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
       make_room();
-      ask(model, motion, conditions, now, in_this_step, false, close_batch);
+      ask(model, motion, conditions, now, no_way, false, close_batch);
     }
     if (!loads_.due()) continue;
     const bool finite = loads_.add(model, still_, motion);
@@ -155,7 +157,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   plans.swap(plans_);
   interfaces_.value = former_interface_values_.data();
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
-    ask(model, motion, conditions, wave(number), travelled_, true,
+    ask(model, motion, conditions, wave(number), way_, true,
         [&](std::size_t batch, std::span<const std::uint32_t> active, const Workspace& found) {
           for (const std::uint32_t i : active) {
             ChunkTotals& chunk = chunk_totals_[(batch_begin_[batch] + i) / pair_chunk];
@@ -175,7 +177,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
 /// asked about, what the law said).
 template <class Each>
 void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
-                       const Wave& wave, double until, bool anew, const Each& each) {
+                       const Wave& wave, const kernels::Way& until, bool anew, const Each& each) {
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
   if (anew) loads_.begin(wave.number);
@@ -186,8 +188,9 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
     Workspace& found = workspaces_[thread];
     const std::size_t begin = batch_begin_[number], end = batch_begin_[number + 1];
     // Pairs that were apart need no look until both bodies together may have closed the gap.
-    const std::uint32_t count = kernels_.choose(
-        ask_again_.data() + begin, static_cast<std::uint32_t>(end - begin), until, found.active.data());
+    const std::uint32_t count =
+        kernels_.choose(ask_again_.data() + begin, approach_.data() + begin,
+                        static_cast<std::uint32_t>(end - begin), until, found.active.data());
     if (count == 0) return;
     loads_.expect();
 #ifdef TALUS_AUDIT
@@ -205,7 +208,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
                              conditions.dt,
                              conditions.hold_stick,
                              conditions.bonds_form,
-                             until == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
+                             until.strayed == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
                              layout_};
     law_->evaluate(batch, {loads_.x(), loads_.y(), found.history.data(),
                            conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
@@ -227,12 +230,14 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
   const std::size_t begin = batch_begin_[batch];
   const kernels::PairBooks books{pairs_.data() + begin,
                                  ask_again_.data() + begin,
+                                 approach_.data() + begin,
                                  damping_power_.data() + begin,
                                  history_.data() + std::size_t{slot_base_[batch]} * history_doubles_,
                                  found.history.data(),
                                  found.reports.data(),
                                  history_doubles_,
-                                 travelled_,
+                                 drift_.data(),
+                                 way_,
                                  skin_ > 0};
   if (keeps_stored_) {
     for (const std::uint32_t i : active) stored_[begin + i] = found.reports[i].stored;

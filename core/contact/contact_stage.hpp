@@ -5,6 +5,7 @@
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
 #include "contact/wave_loads.hpp"
+#include "kernels/contacts.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "parallel/workers.hpp"
@@ -31,10 +32,15 @@ class ContactStage {
   /// Other parameters from now on, as [row][parameter] of the scene's interfaces.
   void set_interfaces(const std::vector<std::vector<double>>& values);
 
-  /// Seeks the candidates anew when something may have moved through the skin since the last search.
-  /// `travelled` is how far each of two corners can have come towards the other since the last call, m. True
-  /// when who is near whom was found anew: at the same times whether a skin is used or not.
-  bool find_pairs(const Model& model, const MotionState& motion, double travelled);
+  /// Seeks the candidates anew when something may have moved through the skin since the last search. The last
+  /// call was `dt` ago, s, and bodies have moved at `speeds` since. True when who is near whom was found
+  /// anew: at the same times whether a skin is used or not.
+  bool find_pairs(const Model& model, const MotionState& motion, double dt,
+                  const MotionState::Speeds& speeds);
+
+  /// [corner] m/s, the velocity with which it is taken to go on for a while. Neighbours that move along with
+  /// each other close no gap by that, however fast they are.
+  std::span<const Vec2> drift() const { return corner_drift_; }
 
   /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.
   std::span<const double> lightest_neighbours() const { return lightest_neighbour_; }
@@ -81,10 +87,12 @@ class ContactStage {
  private:
   static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
   static constexpr double in_this_step = -1;  ///< of ask_again_
+  static constexpr kernels::Way no_way{0, in_this_step};
 
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
+  void renew_drift(const Model& model, const MotionState& motion);
   void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
@@ -122,10 +130,11 @@ class ContactStage {
     const std::size_t size = pairs_of_wave(workers_.threads()), begin = number * size;
     return {number, begin, std::min(begin + size, pairs_.size())};
   }
-  void evaluate(const Model& model, MotionState& motion, const Conditions& conditions, double until);
+  void evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
+                const kernels::Way& until);
   template <class Each>
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
-           double until, bool anew, const Each& each);
+           const kernels::Way& until, bool anew, const Each& each);
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
              const Workspace& found);
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
@@ -182,9 +191,12 @@ class ContactStage {
   WaveLoads loads_;
   LawFault fault_;
   std::vector<ChunkTotals> chunk_totals_;
-  double travelled_ = 0;  ///< m, bound of what a corner has moved since the last search
-  /// [pair] m of travelled_, when a law is to be asked about it.
-  std::vector<double> ask_again_;
+  std::vector<Vec2> corner_drift_;     ///< see drift()
+  std::vector<kernels::Drift> drift_;  ///< [body] of its corners
+  kernels::Way way_{0, 0};             ///< since drift_ was renewed
+  std::uint32_t steps_adrift_ = 0;
+  /// [pair] m of way_, when a law is to be asked about it, and at what speed its bodies drift, m/s.
+  std::vector<double> ask_again_, approach_;
   std::vector<double> damping_power_;      ///< [pair] J/m of the last step
   std::vector<double> stored_;             ///< [pair] J/m, if keeps_stored_
   std::vector<std::uint32_t> capacities_;  ///< [pair] its slots, or how many it needs

@@ -5,12 +5,15 @@ namespace talus {
 void ContactStage::exchange(Archive& archive, const Model& model) {
   if (!law_) return;
   archive(slack_);
-  archive(travelled_);
+  archive(way_);
+  archive.of_known_size(corner_drift_);
+  archive.of_known_size(drift_);
   archive(searches_);
   archive.of_known_size(lightest_neighbour_);
   archive(pairs_);
   archive(piece_pairs_);
   archive(ask_again_);
+  archive(approach_);
   archive(damping_power_);
   archive(history_);
   archive(reports_);
@@ -32,7 +35,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
 /// Whether all indices lead into the arrays of this scene.
 bool ContactStage::fits(const Model& model) const {
   const std::size_t pairs = pairs_.size(), slots = reports_.size();
-  if (ask_again_.size() != pairs || damping_power_.size() != pairs ||
+  if (ask_again_.size() != pairs || approach_.size() != pairs || damping_power_.size() != pairs ||
       history_.size() != slots * history_doubles_ ||
       !(island_.empty() || island_.size() == model.bodies.size()))
     return false;

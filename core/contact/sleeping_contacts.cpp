@@ -27,7 +27,10 @@ void ContactStage::hold_sleeping_pairs() {
   loads_.renew();  // what sleeps has none
   border_.clear();
   still_.clear();
-  for (const std::uint32_t island : island_) still_.push_back(island != 0 ? 1 : 0);
+  for (std::size_t b = 0; b < island_.size(); ++b) {
+    still_.push_back(island_[b] != 0 ? 1 : 0);
+    if (island_[b] != 0) drift_[b] = drift_[b].from_rest();
+  }
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {
       ask_again_[i] = asleep;
@@ -37,6 +40,7 @@ void ContactStage::hold_sleeping_pairs() {
     if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;
     if (island_.empty() || (island_[pairs_[i].a] == 0 && island_[pairs_[i].b] == 0)) continue;
     border_.push_back(i);
+    ask_again_[i] = std::min(ask_again_[i], 0.0);  // by the drift that one had awake
     still_[pairs_[i].a] = still_[pairs_[i].b] = 0;
   }
 }

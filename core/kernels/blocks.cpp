@@ -31,7 +31,7 @@ inline void store(const Vector& from, double* to) {
   std::memcpy(to, &from, sizeof from);
 }
 
-void follow_any(const BodyMotion& m, const double* reference_x, const double* reference_y,
+void follow_any(const BodyMotion& m, const Vec2* drift, const double* reference_x, const double* reference_y,
                 BoundaryCorner* corners, std::uint32_t count, SpeedExtremes& speeds) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double px = reference_x[i], py = reference_y[i];
@@ -50,8 +50,10 @@ void follow_any(const BodyMotion& m, const double* reference_x, const double* re
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     const double vx = corners[i].vx, vy = corners[i].vy, here = vx * vx + vy * vy;
+    const double off_x = vx - drift[i].x, off_y = vy - drift[i].y;
     speeds.squared = larger(speeds.squared, here);
     speeds.sum += here;
+    speeds.stray_squared = larger(speeds.stray_squared, off_x * off_x + off_y * off_y);
     speeds.low_x = smaller(speeds.low_x, vx);
     speeds.high_x = larger(speeds.high_x, vx);
     speeds.low_y = smaller(speeds.low_y, vy);
@@ -61,15 +63,22 @@ void follow_any(const BodyMotion& m, const double* reference_x, const double* re
 
 /// Speeds so far, of four corners at a time.
 struct SpeedRows {
-  Quad squared{}, sum{}, low_x, high_x, low_y, high_y;
+  Quad squared{}, sum{}, stray_squared{}, low_x, high_x, low_y, high_y;
 
   /// From the velocity of any corner on.
   explicit SpeedRows(Vec2 first) {
     low_x = high_x = Quad{} + first.x;
     low_y = high_y = Quad{} + first.y;
   }
-  void add(const Quad& vx, const Quad& vy) {
-    const Quad here = vx * vx + vy * vy;
+  void add(const Quad& vx, const Quad& vy, const Vec2* drift) {
+    Quad first, second;
+    load(&drift[0].x, first);
+    load(&drift[2].x, second);
+    const Quad drift_x = __builtin_shufflevector(first, second, 0, 2, 4, 6),
+               drift_y = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+    const Quad here = vx * vx + vy * vy, off_x = vx - drift_x, off_y = vy - drift_y,
+               stray = off_x * off_x + off_y * off_y;
+    stray_squared = stray_squared > stray ? stray_squared : stray;
     squared = squared > here ? squared : here;
     sum += here;
     low_x = low_x < vx ? low_x : vx;
@@ -78,20 +87,21 @@ struct SpeedRows {
     high_y = high_y > vy ? high_y : vy;
   }
   void add_to(SpeedExtremes& all) const {
-    for (int i = 0; i < 4; ++i) all.add({squared[i], sum[i], low_x[i], high_x[i], low_y[i], high_y[i], true});
+    for (int i = 0; i < 4; ++i)
+      all.add({squared[i], sum[i], low_x[i], high_x[i], low_y[i], high_y[i], stray_squared[i], true});
   }
 };
 
 /// A quadrilateral, which most blocks are.
-inline void follow_quadrilateral(const BodyMotion& m, const double* reference_x, const double* reference_y,
-                                 BoundaryCorner* corner, SpeedRows& speeds) {
+inline void follow_quadrilateral(const BodyMotion& m, const Vec2* drift, const double* reference_x,
+                                 const double* reference_y, BoundaryCorner* corner, SpeedRows& speeds) {
   Quad px, py;
   load(reference_x, px);
   load(reference_y, py);
   const Quad x = px + (m.u.x + m.h.xx * px + m.h.xy * py), y = py + (m.u.y + m.h.yx * px + m.h.yy * py);
   const Quad vx = m.velocity.x + m.rate.xx * px + m.rate.xy * py,
              vy = m.velocity.y + m.rate.yx * px + m.rate.yy * py;
-  speeds.add(vx, vy);
+  speeds.add(vx, vy, drift);
   const Quad dx = __builtin_shufflevector(x, x, 1, 2, 3, 0) - x,
              dy = __builtin_shufflevector(y, y, 1, 2, 3, 0) - y;
   Quad length = dx * dx + dy * dy;
@@ -116,20 +126,22 @@ inline void follow_quadrilateral(const BodyMotion& m, const double* reference_x,
   for (int i = 0; i < 4; ++i) corner[i].length = length[i];
 }
 
-void follow(const Block* blocks, const BodyMotion* motion, const double* reference_x,
+void follow(const Block* blocks, const BodyMotion* motion, const Vec2* drift, const double* reference_x,
             const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
             SpeedExtremes& speeds) {
   while (begin < end && blocks[begin].corner_count == 0) ++begin;
   if (begin == end) return;
   const Vec2 any = motion[begin].velocity;
-  if (!speeds.any) speeds = {0, 0, any.x, any.x, any.y, any.y, true};
+  if (!speeds.any) speeds = {0, 0, any.x, any.x, any.y, any.y, 0, true};
   SpeedRows rows(any);
   for (std::size_t b = begin; b < end; ++b) {
     const std::uint32_t first = blocks[b].corner_begin, count = blocks[b].corner_count;
     if (count == 4 && simd::lanes > 1) {
-      follow_quadrilateral(motion[b], reference_x + first, reference_y + first, corners + first, rows);
+      follow_quadrilateral(motion[b], drift + first, reference_x + first, reference_y + first,
+                           corners + first, rows);
     } else if (count > 0) {
-      follow_any(motion[b], reference_x + first, reference_y + first, corners + first, count, speeds);
+      follow_any(motion[b], drift + first, reference_x + first, reference_y + first, corners + first, count,
+                 speeds);
     }
   }
   rows.add_to(speeds);

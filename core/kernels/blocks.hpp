@@ -23,6 +23,7 @@ struct SpeedExtremes {
   double squared = 0;                                   ///< m²/s², the largest
   double sum = 0;                                       ///< m²/s², no number if any is none
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< m/s
+  double stray_squared = 0;                             ///< m²/s², the largest, off the drift of its body
   bool any = false;
 
   void add(const SpeedExtremes& other);
@@ -82,7 +83,8 @@ struct BlockSums {
 
 struct BlockKernels {
   /// Corners and sides of bodies [begin, end) that are one convex piece follow their motion (Eq. 11).
-  void (*follow)(const Block* blocks, const BodyMotion* motion, const double* reference_x,
+  /// `drift`: m/s, see ContactStage::drift().
+  void (*follow)(const Block* blocks, const BodyMotion* motion, const Vec2* drift, const double* reference_x,
                  const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
                  SpeedExtremes& speeds);
   /// d_{n+1} = d_n + Δt v₊ (Eq. 22).

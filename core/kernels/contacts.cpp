@@ -52,7 +52,8 @@ inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, Close
   if (pair.contact_count != 0) closed.parted.add(i);
   pair.contact_count = 0;
   books.damping_power[i] = 0;
-  books.ask_again[i] = books.skin ? books.travelled + report.gap / 2 : 0;
+  books.approach[i] = books.drift[pair.a].approach(books.drift[pair.b]);
+  books.ask_again[i] = books.skin ? books.way.of(books.approach[i]) + report.gap : 0;
 }
 
 template <bool few>
@@ -123,15 +124,17 @@ struct SetLanes {
 };
 constexpr SetLanes set_lanes;
 
-std::uint32_t choose(const double* ask_again, std::uint32_t count, double until, std::uint32_t* chosen) {
+std::uint32_t choose(const double* ask_again, const double* approach, std::uint32_t count, const Way& now,
+                     std::uint32_t* chosen) {
   std::size_t i = 0;
   std::uint32_t* next = chosen;
   // By four, never past the last place: no more are chosen than were looked at.
   if constexpr (simd::lanes > 1) {
-    const simd::Pack latest = until;
+    const simd::Pack time = now.time, strayed = now.strayed;
     Places first{};
     for (; i + simd::lanes <= count; i += simd::lanes) {
-      auto due = static_cast<std::size_t>(simd::bits(simd::load(ask_again + i) <= latest));
+      const simd::Pack way = simd::load(approach + i) * time + strayed;
+      auto due = static_cast<std::size_t>(simd::bits(simd::load(ask_again + i) <= way));
       for (int four = 0; four < simd::lanes; four += 4, due >>= 4) {
         const std::size_t set = simd::lanes == 4 ? due : due & 15;
         Places places;
@@ -145,7 +148,7 @@ std::uint32_t choose(const double* ask_again, std::uint32_t count, double until,
   }
   for (; i < count; ++i) {
     *next = static_cast<std::uint32_t>(i);
-    next += ask_again[i] <= until ? 1 : 0;
+    next += ask_again[i] <= now.of(approach[i]) ? 1 : 0;
   }
   return static_cast<std::uint32_t>(next - chosen);
 }

@@ -2,8 +2,11 @@
 
 #include "contact/contact_totals.hpp"
 #include "contact/pair_parts.hpp"
+#include "model/motion.hpp"
 
 #include <talus/contact_model.hpp>
+
+#include <cmath>
 
 namespace talus::kernels {
 
@@ -11,17 +14,42 @@ namespace talus::kernels {
 // CMakeLists.txt beside). Sums are taken in an order that neither the instruction set changes nor which of
 // the pairs that are apart a law was asked about.
 
+/// By how much the bodies of a pair can have closed a gap since some time: as they drift towards each other
+/// at most, and as any two corners have strayed from how they drift.
+struct Way {
+  double time;     ///< s
+  double strayed;  ///< m
+
+  double of(double approach) const { return approach * time + strayed; }
+};
+/// The velocities with which the corners of a body are taken to go on.
+struct Drift {
+  Vec2 mean;          ///< m/s
+  double spread = 0;  ///< m/s, by which that of a corner differs at most
+
+  /// The same, counted from rest.
+  Drift from_rest() const { return {{}, approach({})}; }
+
+  /// m/s, by which corners of two bodies differ at most.
+  double approach(const Drift& other) const {
+    const double x = other.mean.x - mean.x, y = other.mean.y - mean.y;
+    return std::sqrt(x * x + y * y) + (spread + other.spread);
+  }
+};
+
 /// What is kept of the pairs of a batch, and what a law found of them; [pair].
 struct PairBooks {
   BodyPair* pairs;
-  double* ask_again;      ///< m of way, when a law is to be asked next
+  double* ask_again;      ///< m of way, see Way, when a law is to be asked next
+  double* approach;       ///< m/s, at which its bodies drift together at most
   double* damping_power;  ///< J/m of the last step
   double* history;        ///< [slot * history_doubles] of the last step
   const double* found;    ///< the same, of this one
   const PairReport* reports;
   std::uint32_t history_doubles;
-  double travelled;  ///< m, the way up to now
-  bool skin;         ///< pairs apart need no look until their gap may be closed
+  const Drift* drift;  ///< [body]
+  Way way;             ///< up to now
+  bool skin;           ///< pairs apart need no look until their gap may be closed
 };
 
 /// What closing the pairs of a chunk leaves to be done.
@@ -39,9 +67,10 @@ struct ClosedChunk {
 };
 
 struct ContactKernels {
-  /// Of `count` pairs of a batch those that are due by `until`, rising, to `chosen`, which has room for all.
+  /// Of `count` pairs of a batch those that are due by now, rising, to `chosen`, which has room for all.
   /// Returns how many.
-  std::uint32_t (*choose)(const double* ask_again, std::uint32_t count, double until, std::uint32_t* chosen);
+  std::uint32_t (*choose)(const double* ask_again, const double* approach, std::uint32_t count,
+                          const Way& now, std::uint32_t* chosen);
   /// What the law found of pairs of one chunk becomes what it is told of the last step, and is added to
   /// `totals`.
   void (*close)(const PairBooks& books, const std::uint32_t* active, std::size_t count, ContactTotals& totals,

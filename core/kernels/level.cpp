@@ -53,6 +53,7 @@ void SpeedExtremes::add(const SpeedExtremes& other) {
   }
   squared = squared > other.squared ? squared : other.squared;
   sum += other.sum;
+  stray_squared = stray_squared > other.stray_squared ? stray_squared : other.stray_squared;
   low_x = low_x < other.low_x ? low_x : other.low_x;
   high_x = high_x > other.high_x ? high_x : other.high_x;
   low_y = low_y < other.low_y ? low_y : other.low_y;

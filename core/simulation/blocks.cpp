@@ -10,14 +10,16 @@
 namespace talus {
 namespace {
 
-kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body) {
+kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body,
+                                 std::span<const Vec2> drift) {
   kernels::SpeedExtremes all;
   for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
     const std::uint32_t begin = model.piece_start[piece],
                         end = model.is_strip[piece] != 0 ? begin + 2 : model.piece_start[piece + 1];
     for (std::uint32_t c = begin; c < end; ++c) {
       const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
-      all.add({squared, squared, vx, vx, vy, vy, true});
+      const double off_x = vx - drift[c].x, off_y = vy - drift[c].y;
+      all.add({squared, squared, vx, vx, vy, vy, off_x * off_x + off_y * off_y, true});
     }
   }
   return all;
@@ -119,11 +121,11 @@ void Blocks::move(double dt, MotionState& motion) {
   });
 }
 
-MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
+MotionState::Speeds Blocks::follow(const Model& model, std::span<const Vec2> drift, MotionState& motion) {
   over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::SpeedExtremes here;
     for (const auto [begin, end] : stretches)
-      kernels_.follow(blocks_.data(), motion.bodies.data(), model.reference_x.data(),
+      kernels_.follow(blocks_.data(), motion.bodies.data(), drift.data(), model.reference_x.data(),
                       model.reference_y.data(), motion.corners.data(), begin, end, here);
     speeds_[number] = here;
   });
@@ -133,13 +135,13 @@ MotionState::Speeds Blocks::follow(const Model& model, MotionState& motion) {
     if (is_asleep(body)) continue;
     motion.move_corners(model, body);
     if (in_contact_) motion.shape_boundary(model, body);
-    all.add(speeds_of(model, motion, model.bodies[body]));
+    all.add(speeds_of(model, motion, model.bodies[body], drift));
   }
   if (!all.any) return {};
-  if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, true});
-  if (!std::isfinite(all.sum)) return {std::numeric_limits<double>::quiet_NaN(), 0};
+  if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, 0, true});
+  if (!std::isfinite(all.sum)) return {std::numeric_limits<double>::quiet_NaN(), 0, 0};
   const double dx = all.high_x - all.low_x, dy = all.high_y - all.low_y;
-  return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy)};
+  return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy), std::sqrt(all.stray_squared)};
 }
 
 /// Bodies [begin, end) of a chunk; of their motion at t_n the velocity is kept.

@@ -22,8 +22,8 @@ class Blocks {
   bool is_asleep(std::uint32_t body) const { return !asleep_.empty() && asleep_[body] != 0; }
 
   void move(double dt, MotionState& motion);  ///< Eq. 22
-  /// Boundaries of all bodies follow (Eq. 11); returns how fast they are.
-  MotionState::Speeds follow(const Model& model, MotionState& motion);
+  /// Boundaries of all bodies follow (Eq. 11); returns how fast they are. `drift`: ContactStage::drift().
+  MotionState::Speeds follow(const Model& model, std::span<const Vec2> drift, MotionState& motion);
   /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
   void accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
                   AccelerationWork& work);

@@ -88,7 +88,7 @@ void Simulation::State::step(double next_end) {
 
 void Simulation::State::begin(double end) {
   dt_behind = 0;
-  speeds = blocks.follow(model, motion);  // the first step is bounded by them, too
+  speeds = blocks.follow(model, contacts.drift(), motion);  // the first step is bounded by them, too
   make_plan(end);
   forces();
   check_step();
@@ -100,12 +100,12 @@ void Simulation::State::forces() {
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
   motion.clear_forces(model);
-  speeds = blocks.follow(model, motion);  // Eq. 11
+  speeds = blocks.follow(model, contacts.drift(), motion);  // Eq. 11
   check_numbers();
   const Vec2 pull = gravity();
   if (sleep && !settling) sleep->watch(time, pull, workers, sleeping_parts());
   profile.enter(Phase::neighbours);
-  if (contacts.find_pairs(model, motion, dt_behind * speeds.closing())) vote_again();  // Table 1, 1
+  if (contacts.find_pairs(model, motion, dt_behind, speeds)) vote_again();  // Table 1, 1
   const bool may_sleep_now = may_sleep();
   observed = observed || may_sleep_now;
   profile.enter(Phase::contacts);

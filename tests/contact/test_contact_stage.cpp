@@ -27,10 +27,12 @@ struct HeldStage {
         motion(model),
         contacts(scene, model, workers, skin) {}
 
+  static constexpr MotionState::Speeds far{1e9, 2e9, 1e9};  ///< m/s
+
   ContactTotals evaluate(double dt = 1e-3) {
     for (BodyForce& force : motion.forces) force = {};
     motion.move_boundary(model);
-    contacts.find_pairs(model, motion, 1e9);  // the candidates are sought anew every time
+    contacts.find_pairs(model, motion, 1, far);  // the candidates are sought anew every time
     return contacts.evaluate(model, motion, {dt, true, false});
   }
 
@@ -38,7 +40,7 @@ struct HeldStage {
   ContactTotals evaluate_near() {
     for (BodyForce& force : motion.forces) force = {};
     motion.move_boundary(model);
-    contacts.find_pairs(model, motion, 0);
+    contacts.find_pairs(model, motion, 0, {});
     return contacts.evaluate(model, motion, {1e-3, true, false});
   }
 
@@ -323,7 +325,7 @@ TEST_CASE("a look with the former interfaces leaves nothing behind for the step"
     REQUIRE(each->pair(0, 1).contact_count == 0);
     each->motion.bodies[1].u.y = -1e-3;
     each->motion.move_boundary(each->model);
-    each->contacts.find_pairs(each->model, each->motion, 5e-3);
+    each->contacts.find_pairs(each->model, each->motion, 1e-3, {10, 10, 10});
   }
   stage.contacts.with_former_interfaces(stage.model, stage.motion, {1e-3, true, false});
   const ContactTotals after_look = stage.evaluate_near(), due = plain.evaluate_near();
@@ -352,7 +354,7 @@ TEST_CASE("a fixed body is master, and between moving bodies both are or the pri
   Scene scene = text.read();
   scene.roles_by_priority = true;
   ContactStage contacts(scene, both.model, alone(), true);
-  contacts.find_pairs(both.model, both.motion, 1);
+  contacts.find_pairs(both.model, both.motion, 0, {});
   for (const BodyPair& pair : contacts.pairs()) {
     if (pair.a == 0 && pair.b == 2) CHECK(pair.master_share == 0.5);  // equal priorities
     if (pair.a == 2 && pair.b == 3) CHECK(pair.master_share == 0);

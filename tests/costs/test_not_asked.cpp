@@ -95,6 +95,34 @@ TEST_CASE("What touches nothing is not asked of a law; what may touch is", "[cos
   CHECK(near.asked.pairs == steps + 1);
 }
 
+/// Two blocks one millimetre apart, the one behind at 20 m/s, and a third that goes another way.
+WorkingScene distant_scene(double speed_of_other, const std::string& more = {}) {
+  const std::string other = R"("velocity": [)" + std::to_string(speed_of_other) + ", 0]";
+  WorkingScene text = counting_scene(box("block", 0, 0, 1, 1, R"("velocity": [20, 0])" + more) + "," +
+                                         box("other", 1.001, 0, 2, 1, other + more) + "," +
+                                         box("third", -50, 0, -49, 1, R"("velocity": [0, 20])"),
+                                     "rigid");
+  text.law = "distant";
+  return text;
+}
+
+TEST_CASE("Neighbours that move along with each other are seldom asked about, however fast they are",
+          "[costs]") {
+  const Course along = course_of(distant_scene(20));
+  CHECK(along.asked.pairs < steps / 10);
+  // While both turn, two corners may close in at 1.4 m/s.
+  const Course spinning = course_of(distant_scene(20, R"(, "angular_velocity": 30)"));
+  CHECK(spinning.asked.pairs > along.asked.pairs);
+  CHECK(spinning.asked.pairs < steps / 5);
+}
+
+TEST_CASE("A gap that closes is asked about before it may be closed", "[costs]") {
+  // 20 mm in all, of which each look allows one.
+  const Course closing = course_of(distant_scene(19));
+  CHECK(closing.asked.pairs >= 20);
+  CHECK(closing.asked.pairs < steps / 2);
+}
+
 TEST_CASE("A body that does not deform is not asked of its material", "[costs]") {
   const Course rigid = course_of(counting_scene(falling_block(), "rigid"));
   CHECK(rigid.asked.material == 0);

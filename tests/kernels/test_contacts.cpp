@@ -19,8 +19,10 @@ constexpr double untouched = -7;
 struct SomePairs {
   std::vector<BodyPair> pairs;
   std::vector<PairReport> reports;
-  std::vector<double> ask_again, damping_power, history, found;
+  std::vector<double> ask_again, approach, damping_power, history, found;
+  std::vector<Drift> drift;  ///< [body]
   std::uint32_t doubles;
+  static constexpr Way way{2, 0.25};
   ContactTotals totals[2];
   ClosedChunk closed[2];
 
@@ -45,23 +47,21 @@ struct SomePairs {
       pairs.push_back(pair);
       reports.push_back(report);
       ask_again.push_back(untouched);
+      approach.push_back(untouched);
       damping_power.push_back(pair.contact_count == 0 ? 0 : random());
     }
+    for (std::size_t body = 0; body < 1000 + pairs.size(); ++body)
+      drift.push_back({{random(), random()}, random()});
     history.assign((slot + 1) * doubles, untouched);
     for (std::size_t i = 0; i < history.size(); ++i) found.push_back(random());
   }
 
   /// Those of `asked`, rising.
   void close(SimdLevel level, const std::vector<std::uint32_t>& asked) {
-    const PairBooks books{pairs.data(),
-                          ask_again.data(),
-                          damping_power.data(),
-                          history.data(),
-                          found.data(),
-                          reports.data(),
-                          doubles,
-                          0.25,
-                          true};
+    const PairBooks books{
+        pairs.data(), ask_again.data(), approach.data(), damping_power.data(), history.data(),
+        found.data(), reports.data(),   doubles,         drift.data(),         way,
+        true};
     for (std::uint32_t chunk = 0, at = 0; chunk < 2; ++chunk) {
       const std::uint32_t first = at;
       while (at < asked.size() && asked[at] / pair_chunk == chunk) ++at;
@@ -85,7 +85,8 @@ struct SomePairs {
         for (std::uint32_t at = 0; at < report.contact_count * doubles; ++at)
           history[pair.slot_start * doubles + at] = found[pair.slot_start * doubles + at];
       }
-      ask_again[i] = report.contact_count > 0 ? 0 : 0.25 + report.gap / 2;
+      if (report.contact_count == 0) approach[i] = drift[pair.a].approach(drift[pair.b]);
+      ask_again[i] = report.contact_count > 0 ? 0 : 2 * approach[i] + 0.25 + report.gap;
       damping_power[i] = report.contact_count > 0 ? report.damping_power : 0;
       pair.contact_count = report.contact_count;
     }
@@ -113,6 +114,7 @@ TEST_CASE("pairs are closed as each alone would be", "[kernels][contacts]") {
       due.close_plainly();
       got.close(static_cast<SimdLevel>(level), numbers(got.pairs.size()));
       CHECK(got.ask_again == due.ask_again);
+      CHECK(got.approach == due.approach);
       CHECK(got.damping_power == due.damping_power);
       CHECK(got.history == due.history);
       for (std::size_t i = 0; i < got.pairs.size(); ++i)
@@ -186,18 +188,21 @@ TEST_CASE("the pairs that are due are chosen, and no more room is taken than for
   std::mt19937 source(3);
   for (int level = 0; level <= static_cast<int>(best_simd_level()); ++level) {
     for (std::uint32_t count = 0; count < 40; ++count) {
-      for (const double until : {-1.0, 0.0, 2.0, 4.0}) {
-        CAPTURE(level, count, until);
-        std::vector<double> ask_again;
+      for (const auto& [time, strayed] :
+           {Way{0, -1}, Way{0, 0}, Way{1, 0}, Way{0, 2}, Way{1, 2}, Way{0.5, 3.5}}) {
+        CAPTURE(level, count, time, strayed);
+        std::vector<double> ask_again, approach;
         std::vector<std::uint32_t> due;
         for (std::uint32_t i = 0; i < count; ++i) {
           ask_again.push_back(static_cast<double>(source() % 6) - 1);
-          if (ask_again.back() <= until) due.push_back(i);
+          approach.push_back(static_cast<double>(source() % 3));
+          if (ask_again.back() <= approach.back() * time + strayed) due.push_back(i);
         }
         constexpr std::uint32_t guard = 12345;
         std::vector<std::uint32_t> chosen(count + 1, guard);
-        const std::uint32_t found = contact_kernels(static_cast<SimdLevel>(level))
-                                        .choose(ask_again.data(), count, until, chosen.data());
+        const std::uint32_t found =
+            contact_kernels(static_cast<SimdLevel>(level))
+                .choose(ask_again.data(), approach.data(), count, {time, strayed}, chosen.data());
         CHECK(chosen.back() == guard);
         chosen.resize(found);
         CHECK(chosen == due);

@@ -20,6 +20,17 @@ class CountingLaw : public SilentLaw {
   }
 };
 
+/// Finds all bodies a millimetre apart.
+class DistantLaw : public CountingLaw {
+ public:
+  using CountingLaw::CountingLaw;
+
+  void evaluate(const talus::ContactBatch& batch, const talus::ContactLoads& loads) const noexcept override {
+    CountingLaw::evaluate(batch, loads);
+    for (std::uint32_t i = 0; i < batch.active_count; ++i) loads.pairs[batch.active[i]].gap = 1e-3;
+  }
+};
+
 /// Bears nothing.
 class CountingMaterial : public talus::Material {
  public:
@@ -51,10 +62,10 @@ class CountingCover : public talus::CoverBuilder {
   }
 };
 
-constexpr talus::Component components[] = {law<CountingLaw>("counting"),
+constexpr talus::Component components[] = {law<CountingLaw>("counting"), law<DistantLaw>("distant"),
                                            talus::material<CountingMaterial>("counting", "Counts.", {}),
                                            talus::cover_builder<CountingCover>("counting", "Counts.", {})};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 3);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 4);

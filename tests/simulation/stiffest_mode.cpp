@@ -93,7 +93,7 @@ class Oscillator {
     }
     motion.move_boundary(model_);
     ContactStage contacts(scene_, model_, alone(), true);
-    contacts.find_pairs(model_, motion, 1e9);
+    contacts.find_pairs(model_, motion, 0, {});
     contacts.evaluate(model_, motion, {1, true, false});
     Deformation(scene_, model_, alone()).apply(model_, motion, 1);
     Loads(scene_, settings_of(scene_), model_).apply(motion, 0, 0);
