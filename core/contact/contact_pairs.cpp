@@ -54,8 +54,9 @@ void ContactStage::renew_drift(const Model& model, const MotionState& motion) {
     const Body& body = model.bodies[b];
     for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
       const BoundaryCorner& corner = motion.corners[c];
-      corner_drift_[c] = {corner.vx, corner.vy};
-      const double x = corner.vx - drift.mean.x, y = corner.vy - drift.mean.y;
+      const kernels::CornerDrift now =
+          corner_drift_[c] = {static_cast<float>(corner.vx), static_cast<float>(corner.vy)};
+      const double x = now.x - drift.mean.x, y = now.y - drift.mean.y;
       drift.spread = std::max(drift.spread, x * x + y * y);
     }
     drift.spread = std::sqrt(drift.spread);
@@ -79,10 +80,12 @@ void ContactStage::note_neighbours(const Model& model) {
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {
+  const auto touches = [](const BodyPair& pair) { return pair.contact_count > 0; };
   former_pairs_.clear();
-  make_room_in(former_pairs_, pairs_.size());
+  make_room_in(former_pairs_, static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), touches)));
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const BodyPair& pair = pairs_[i];
+    if (!touches(pair)) continue;
     former_pairs_.push_back(
         {pair.a, pair.b, slot_of(i), pair.slot_capacity, pair.contact_count, damping_power_[i]});
   }

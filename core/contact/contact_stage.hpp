@@ -5,6 +5,7 @@
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
 #include "contact/wave_loads.hpp"
+#include "kernels/blocks.hpp"
 #include "kernels/contacts.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
@@ -38,9 +39,9 @@ class ContactStage {
   bool find_pairs(const Model& model, const MotionState& motion, double dt,
                   const MotionState::Speeds& speeds);
 
-  /// [corner] m/s, the velocity with which it is taken to go on for a while. Neighbours that move along with
+  /// [corner] the velocity with which it is taken to go on for a while. Neighbours that move along with
   /// each other close no gap by that, however fast they are.
-  std::span<const Vec2> drift() const { return corner_drift_; }
+  std::span<const kernels::CornerDrift> drift() const { return corner_drift_; }
 
   /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.
   std::span<const double> lightest_neighbours() const { return lightest_neighbour_; }
@@ -175,7 +176,7 @@ class ContactStage {
   std::vector<Candidate> candidates_;
   std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
   std::vector<BodyPair> pairs_;
-  /// What goes with a pair from one search to the next.
+  /// What goes with a pair in contact from one search to the next.
   struct FormerPair {
     std::uint32_t a, b, slot_start, slot_capacity, contact_count;
     double damping_power;
@@ -191,9 +192,9 @@ class ContactStage {
   WaveLoads loads_;
   LawFault fault_;
   std::vector<ChunkTotals> chunk_totals_;
-  std::vector<Vec2> corner_drift_;     ///< see drift()
-  std::vector<kernels::Drift> drift_;  ///< [body] of its corners
-  kernels::Way way_{0, 0};             ///< since drift_ was renewed
+  std::vector<kernels::CornerDrift> corner_drift_;  ///< see drift()
+  std::vector<kernels::Drift> drift_;               ///< [body] of its corners
+  kernels::Way way_{0, 0};                          ///< since drift_ was renewed
   std::uint32_t steps_adrift_ = 0;
   /// [pair] m of way_, when a law is to be asked about it, and at what speed its bodies drift, m/s.
   std::vector<double> ask_again_, approach_;

@@ -21,9 +21,10 @@ double larger(double p, double q) {
 using Quad [[gnu::vector_size(32)]] = double;
 
 using Pair [[gnu::vector_size(16)]] = double;
+using Floats [[gnu::vector_size(32)]] = float;
 
-template <class Vector>
-inline void load(const double* from, Vector& to) {
+template <class Number, class Vector>
+inline void load(const Number* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);
 }
 template <class Vector>
@@ -31,8 +32,9 @@ inline void store(const Vector& from, double* to) {
   std::memcpy(to, &from, sizeof from);
 }
 
-void follow_any(const BodyMotion& m, const Vec2* drift, const double* reference_x, const double* reference_y,
-                BoundaryCorner* corners, std::uint32_t count, SpeedExtremes& speeds) {
+void follow_any(const BodyMotion& m, const CornerDrift* drift, const double* reference_x,
+                const double* reference_y, BoundaryCorner* corners, std::uint32_t count,
+                SpeedExtremes& speeds) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double px = reference_x[i], py = reference_y[i];
     corners[i].x = px + (m.u.x + m.h.xx * px + m.h.xy * py);
@@ -70,12 +72,11 @@ struct SpeedRows {
     low_x = high_x = Quad{} + first.x;
     low_y = high_y = Quad{} + first.y;
   }
-  void add(const Quad& vx, const Quad& vy, const Vec2* drift) {
-    Quad first, second;
-    load(&drift[0].x, first);
-    load(&drift[2].x, second);
-    const Quad drift_x = __builtin_shufflevector(first, second, 0, 2, 4, 6),
-               drift_y = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+  void add(const Quad& vx, const Quad& vy, const CornerDrift* drift) {
+    Floats drifts;
+    load(&drift[0].x, drifts);
+    const Quad drift_x = __builtin_convertvector(__builtin_shufflevector(drifts, drifts, 0, 2, 4, 6), Quad),
+               drift_y = __builtin_convertvector(__builtin_shufflevector(drifts, drifts, 1, 3, 5, 7), Quad);
     const Quad here = vx * vx + vy * vy, off_x = vx - drift_x, off_y = vy - drift_y,
                stray = off_x * off_x + off_y * off_y;
     stray_squared = stray_squared > stray ? stray_squared : stray;
@@ -93,7 +94,7 @@ struct SpeedRows {
 };
 
 /// A quadrilateral, which most blocks are.
-inline void follow_quadrilateral(const BodyMotion& m, const Vec2* drift, const double* reference_x,
+inline void follow_quadrilateral(const BodyMotion& m, const CornerDrift* drift, const double* reference_x,
                                  const double* reference_y, BoundaryCorner* corner, SpeedRows& speeds) {
   Quad px, py;
   load(reference_x, px);
@@ -126,9 +127,9 @@ inline void follow_quadrilateral(const BodyMotion& m, const Vec2* drift, const d
   for (int i = 0; i < 4; ++i) corner[i].length = length[i];
 }
 
-void follow(const Block* blocks, const BodyMotion* motion, const Vec2* drift, const double* reference_x,
-            const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
-            SpeedExtremes& speeds) {
+void follow(const Block* blocks, const BodyMotion* motion, const CornerDrift* drift,
+            const double* reference_x, const double* reference_y, BoundaryCorner* corners, std::size_t begin,
+            std::size_t end, SpeedExtremes& speeds) {
   while (begin < end && blocks[begin].corner_count == 0) ++begin;
   if (begin == end) return;
   const Vec2 any = motion[begin].velocity;

@@ -19,6 +19,11 @@ struct Block {
   bool free = false;  ///< nothing of its motion is prescribed, and its strain is as heavy as it is
 };
 
+/// m/s, the velocity with which a corner is taken to go on. Any does, so half the digits do.
+struct CornerDrift {
+  float x, y;
+};
+
 struct SpeedExtremes {
   double squared = 0;                                   ///< m²/s², the largest
   double sum = 0;                                       ///< m²/s², no number if any is none
@@ -84,9 +89,9 @@ struct BlockSums {
 struct BlockKernels {
   /// Corners and sides of bodies [begin, end) that are one convex piece follow their motion (Eq. 11).
   /// `drift`: m/s, see ContactStage::drift().
-  void (*follow)(const Block* blocks, const BodyMotion* motion, const Vec2* drift, const double* reference_x,
-                 const double* reference_y, BoundaryCorner* corners, std::size_t begin, std::size_t end,
-                 SpeedExtremes& speeds);
+  void (*follow)(const Block* blocks, const BodyMotion* motion, const CornerDrift* drift,
+                 const double* reference_x, const double* reference_y, BoundaryCorner* corners,
+                 std::size_t begin, std::size_t end, SpeedExtremes& speeds);
   /// d_{n+1} = d_n + Δt v₊ (Eq. 22).
   void (*move)(const Block* blocks, double dt, BodyMotion* motion, std::size_t begin, std::size_t end);
   /// Adds up the loads on those of [begin, end) that are one convex piece, contact after contact

@@ -11,7 +11,7 @@ namespace talus {
 namespace {
 
 kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body,
-                                 std::span<const Vec2> drift) {
+                                 std::span<const kernels::CornerDrift> drift) {
   kernels::SpeedExtremes all;
   for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
     const std::uint32_t begin = model.piece_start[piece],
@@ -121,7 +121,8 @@ void Blocks::move(double dt, MotionState& motion) {
   });
 }
 
-MotionState::Speeds Blocks::follow(const Model& model, std::span<const Vec2> drift, MotionState& motion) {
+MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::CornerDrift> drift,
+                                   MotionState& motion) {
   over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::SpeedExtremes here;
     for (const auto [begin, end] : stretches)

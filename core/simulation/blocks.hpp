@@ -23,7 +23,8 @@ class Blocks {
 
   void move(double dt, MotionState& motion);  ///< Eq. 22
   /// Boundaries of all bodies follow (Eq. 11); returns how fast they are. `drift`: ContactStage::drift().
-  MotionState::Speeds follow(const Model& model, std::span<const Vec2> drift, MotionState& motion);
+  MotionState::Speeds follow(const Model& model, std::span<const kernels::CornerDrift> drift,
+                             MotionState& motion);
   /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
   void accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
                   AccelerationWork& work);

@@ -3,7 +3,7 @@
 
   sliding.py --blocks 504 > sliding_504.json                      8 rows of 63 blocks
   sliding.py --blocks 5000 --cover rigid > sliding_5000.json      25 rows of 200 rigid blocks
-  sliding.py --blocks 504 --roles priority > one_sided.json       the lower of two blocks is master
+  sliding.py --blocks 504 --roles priority > one_sided.json       the lower of two blocks is master, of a row the one behind
 
 Joints between the blocks of a row lean at random and are open by a tenth of a millimetre; rows differ in height, and
 one block in eight is a millimetre lower than its row. Each row starts a little faster than the one below, so all
@@ -90,16 +90,17 @@ def plain(value):
     return f"{value:g}".replace("e+", "e")
 
 
-def body_line(name, outline, velocity, row, roles):
+def body_line(number, name, outline, velocity, roles):
     points = ", ".join(f"[{x!r}, {y!r}]" for x, y in outline)
     rest = ', "fixed": true' if velocity is None else f', "velocity": [{velocity[0]!r}, {velocity[1]!r}]'
     if roles == "priority":
-        rest += f', "priority": {-row}'
+        rest += f', "priority": {-number}'
     return f'    {{"name": "{name}", "polygon": [{points}], "material": "rock"{rest}}}'
 
 
 def scene(blocks, cover, roles, seed):
-    body_lines = ",\n".join(body_line(*body, roles) for body in bodies(blocks, seed))
+    all_bodies = enumerate(bodies(blocks, seed))  # row by row
+    body_lines = ",\n".join(body_line(number, *body[:3], roles) for number, body in all_bodies)
     rows = row_count(blocks)
     return f"""// {blocks} blocks in {rows} rows slide on each other down a base inclined by {SLOPE:g} deg.
 // Made by: generate/sliding.py --blocks {blocks} --cover {cover} --roles {roles} --seed {seed}

@@ -5,7 +5,7 @@
   compare.py --sizes 504 --rounds 5 --json peers.json
 
 Per program: ns of processor time per moving body and step on one thread, the median over the rounds; its ratio to
-talus with deformable blocks; its step; and what became of the bodies: their root mean square speed at the end, and
+talus with deformable blocks, one of each two master; its step; and what became of the bodies: their root mean square speed at the end, and
 how many pairs of them touch. A program that is not installed is left out.
 """
 
@@ -44,13 +44,16 @@ def output_of(command, folder):
 
 
 class Talus:
-    def __init__(self, program, folder, blocks, cover, mass):
+    def __init__(self, program, folder, blocks, cover, roles, mass):
         self.name = f"talus, {'deformable' if cover == 'block' else 'rigid'}"
-        self.scene = folder / f"{cover}_{blocks}.json"
-        self.scene.write_text(sliding.scene(blocks, cover, "symmetric", 1))
-        self.command = [program, "run", self.scene, "--threads", "1", "--overwrite", "--out", folder / cover]
+        if roles == "symmetric":
+            self.name += ", both roles"
+        out = folder / f"{cover}_{roles}_{blocks}"
+        self.scene = out.with_suffix(".json")
+        self.scene.write_text(sliding.scene(blocks, cover, roles, 1))
+        self.command = [program, "run", self.scene, "--threads", "1", "--overwrite", "--out", out]
         self.command += ["--set", f"/time/end={span(blocks)}", "--set", f"/output/history={span(blocks)}"]
-        self.folder, self.blocks, self.mass, self.record = folder, blocks, mass, folder / cover / "run.json"
+        self.folder, self.blocks, self.mass, self.record = folder, blocks, mass, out / "run.json"
 
     def run(self):
         output_of(self.command, self.folder)
@@ -117,7 +120,8 @@ def programs(arguments, folder, blocks):
     bodies = sliding.bodies(blocks)
     moving = [outline for _, outline, velocity, _ in bodies if velocity is not None]
     mass = sliding.DENSITY * sum(words.area_and_centre(outline)[0] for outline in moving)
-    found = [Talus(arguments.talus, folder, blocks, cover, mass) for cover in ("block", "rigid")]
+    ways = [("block", "priority"), ("block", "symmetric"), ("rigid", "priority")]
+    found = [Talus(arguments.talus, folder, blocks, cover, roles, mass) for cover, roles in ways]
     if pathlib.Path(arguments.box2d).exists():
         found.append(Box2d(arguments.box2d, folder, blocks, bodies))
     if shutil.which(arguments.lammps):
@@ -155,7 +159,7 @@ def main():
         print(f"{blocks} sliding blocks, {span(blocks)} s, {arguments.rounds} rounds")
         for name, run in found[blocks].items():
             print(
-                f"  {name:18} {run['ns']:9.0f} ns  {run['ratio']:6.2f}  step {run['step']:.3g} s"
+                f"  {name:30} {run['ns']:9.0f} ns  {run['ratio']:6.2f}  step {run['step']:.3g} s"
                 f"  speed {run['speed']:.4f} m/s  {run['note']}",
                 flush=True,
             )
