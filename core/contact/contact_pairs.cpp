@@ -48,8 +48,7 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
 /// From now on what every corner does is told from how it moves now. Of the way to a pair as much is left as
 /// was before.
 void ContactStage::renew_drift(const Model& model, const MotionState& motion) {
-  for (std::size_t b = 0; b < drift_.size(); ++b) {
-    if (fixed_[b] != 0) continue;
+  for (const std::uint32_t b : model.moving_bodies) {
     kernels::Drift& drift = drift_[b] = {motion.bodies[b].velocity, 0};
     const Body& body = model.bodies[b];
     for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {

@@ -75,7 +75,7 @@ void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
 }
 
 void MotionState::clear_forces(const Model& model) {
-  std::fill(forces.begin(), forces.end(), BodyForce{});  // of bodies that stand, too: there are none
+  for (const std::uint32_t body : model.moving_bodies) forces[body] = {};
   for (const std::uint32_t index : model.covered_bodies) {
     const Body& body = model.bodies[index];
     for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) patch_force[p] = {};
