@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 namespace talus {
@@ -13,8 +12,6 @@ namespace {
 /// overlap, vertex_edge a hundredth of an edge.
 constexpr double sight = 0.02;
 constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
-/// For so many steps a drift is counted on: what pulls all bodies makes little of it meanwhile.
-constexpr std::uint32_t steps_of_drift = 32;
 
 }  // namespace
 
@@ -25,47 +22,25 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   slack_ -= dt * speeds.closing();
   way_.time += dt;
   way_.strayed += 2 * dt * speeds.stray;
-  if (++steps_adrift_ == steps_of_drift) renew_drift(model, motion);
+  way_.travelled += 2 * dt * speeds.closing();
   const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
   if (!due && !every_step) {
     if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
         worth_dividing_anew(pairs_, workers_.threads(), batch_begin_, other_batches_))
       share_anew(model);
+    drift_on(model, motion);
     return false;
   }
   if (due) {
     search_.find(model, motion, near_, candidates_);
     note_neighbours(model);
     slack_ = near_ / 2;
-    renew_drift(model, motion);
+    take_drift(model, motion);
   }
   if (every_step) search_.find(model, motion, sight * model.mean_width, candidates_);
   rebuild_pairs(model);
   ++searches_;
   return due;
-}
-
-/// From now on what every corner does is told from how it moves now. Of the way to a pair as much is left as
-/// was before.
-void ContactStage::renew_drift(const Model& model, const MotionState& motion) {
-  for (const std::uint32_t b : model.moving_bodies) {
-    kernels::Drift& drift = drift_[b] = {motion.bodies[b].velocity, 0};
-    const Body& body = model.bodies[b];
-    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-      const BoundaryCorner& corner = motion.corners[c];
-      const kernels::CornerDrift now =
-          corner_drift_[c] = {static_cast<float>(corner.vx), static_cast<float>(corner.vy)};
-      const double x = now.x - drift.mean.x, y = now.y - drift.mean.y;
-      drift.spread = std::max(drift.spread, x * x + y * y);
-    }
-    drift.spread = std::sqrt(drift.spread);
-  }
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    ask_again_[i] = std::max(0.0, ask_again_[i] - way_.of(approach_[i]));
-    approach_[i] = drift_[pairs_[i].a].approach(drift_[pairs_[i].b]);
-  }
-  way_ = {0, 0};
-  steps_adrift_ = 0;
 }
 
 void ContactStage::note_neighbours(const Model& model) {

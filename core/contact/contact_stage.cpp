@@ -18,6 +18,9 @@ constexpr double skin_share = 0.1;
 /// a law does must not depend on when neighbours were sought.
 constexpr double clear_share = 0.8;
 
+/// Of near_: m, by which places may be off by rounding, and gaps so much smaller than a law says.
+constexpr double rounding_share = 1e-9;
+
 void noop(void* /*object*/) noexcept {}
 
 /// [surface class] the first that meets all others at the same interfaces.
@@ -129,13 +132,13 @@ ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, co
 
 /// Of the pairs whose time has come (see ask_again_), wave after wave of them.
 void ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
-                            const kernels::Way& until) {
+                            const kernels::Way& gone) {
   const auto close_batch = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
     close(model, batch, active, found);
   };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     const Wave now = wave(number);
-    ask(model, motion, conditions, now, until, true, close_batch);
+    ask(model, motion, conditions, now, gone, true, close_batch);
     while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
       make_room();
       ask(model, motion, conditions, now, no_way, false, close_batch);
@@ -177,7 +180,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
 /// asked about, what the law said).
 template <class Each>
 void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
-                       const Wave& wave, const kernels::Way& until, bool anew, const Each& each) {
+                       const Wave& wave, const kernels::Way& gone, bool anew, const Each& each) {
   const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
                               clear_depth_.data()};
   if (anew) loads_.begin(wave.number);
@@ -190,7 +193,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
     // Pairs that were apart need no look until both bodies together may have closed the gap.
     const std::uint32_t count =
         kernels_.choose(ask_again_.data() + begin, approach_.data() + begin,
-                        static_cast<std::uint32_t>(end - begin), until, found.active.data());
+                        static_cast<std::uint32_t>(end - begin), gone, found.active.data());
     if (count == 0) return;
     loads_.expect();
 #ifdef TALUS_AUDIT
@@ -198,18 +201,19 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
     std::fill(found.history.begin(), found.history.end(), poison);
     for (std::uint32_t i = 0; i < count; ++i) fill_loads(model, pairs_[begin + found.active[i]], poison);
 #endif
-    const ContactBatch batch{boundaries,
-                             interfaces_,
-                             pairs_.data() + begin,
-                             piece_pairs_.data(),
-                             history_.data() + slot * history_doubles_,
-                             found.active.data(),
-                             count,
-                             conditions.dt,
-                             conditions.hold_stick,
-                             conditions.bonds_form,
-                             until.strayed == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
-                             layout_};
+    const ContactBatch batch{
+        boundaries,
+        interfaces_,
+        pairs_.data() + begin,
+        piece_pairs_.data(),
+        history_.data() + slot * history_doubles_,
+        found.active.data(),
+        count,
+        conditions.dt,
+        conditions.hold_stick,
+        conditions.bonds_form,
+        gone.travelled == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
+        layout_};
     law_->evaluate(batch, {loads_.x(), loads_.y(), found.history.data(),
                            conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
 #ifdef TALUS_AUDIT
@@ -238,6 +242,7 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
                                  history_doubles_,
                                  drift_.data(),
                                  way_,
+                                 rounding_share * near_,
                                  skin_ > 0};
   if (keeps_stored_) {
     for (const std::uint32_t i : active) stored_[begin + i] = found.reports[i].stored;

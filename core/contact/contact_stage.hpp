@@ -87,13 +87,15 @@ class ContactStage {
 
  private:
   static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
-  static constexpr double in_this_step = -1;  ///< of ask_again_
-  static constexpr kernels::Way no_way{0, in_this_step};
+  static constexpr double in_this_step = -1;  ///< of ask_again_: less than any way
+  static constexpr kernels::Way no_way{0, in_this_step, in_this_step};
 
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
-  void renew_drift(const Model& model, const MotionState& motion);
+  void take_drift(const Model& model, const MotionState& motion);
+  kernels::Drift drift_of(const Body& body, const MotionState& motion);
+  void drift_on(const Model& model, const MotionState& motion);
   void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
@@ -132,10 +134,10 @@ class ContactStage {
     return {number, begin, std::min(begin + size, pairs_.size())};
   }
   void evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
-                const kernels::Way& until);
+                const kernels::Way& gone);
   template <class Each>
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
-           const kernels::Way& until, bool anew, const Each& each);
+           const kernels::Way& gone, bool anew, const Each& each);
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
              const Workspace& found);
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
@@ -194,7 +196,7 @@ class ContactStage {
   std::vector<ChunkTotals> chunk_totals_;
   std::vector<kernels::CornerDrift> corner_drift_;  ///< see drift()
   std::vector<kernels::Drift> drift_;               ///< [body] of its corners
-  kernels::Way way_{0, 0};                          ///< since drift_ was renewed
+  kernels::Way way_;                                ///< since the drift was taken
   std::uint32_t steps_adrift_ = 0;
   /// [pair] m of way_, when a law is to be asked about it, and at what speed its bodies drift, m/s.
   std::vector<double> ask_again_, approach_;

@@ -29,7 +29,8 @@ void ContactStage::hold_sleeping_pairs() {
   still_.clear();
   for (std::size_t b = 0; b < island_.size(); ++b) {
     still_.push_back(island_[b] != 0 ? 1 : 0);
-    if (island_[b] != 0) drift_[b] = drift_[b].from_rest();
+    if (island_[b] != 0)
+      drift_[b] = drift_[b].with_rest();  // as it sleeps; its corners' old ones hold when it wakes
   }
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {
@@ -40,7 +41,7 @@ void ContactStage::hold_sleeping_pairs() {
     if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;
     if (island_.empty() || (island_[pairs_[i].a] == 0 && island_[pairs_[i].b] == 0)) continue;
     border_.push_back(i);
-    ask_again_[i] = std::min(ask_again_[i], 0.0);  // by the drift that one had awake
+    ask_again_[i] = std::min(ask_again_[i], 0.0);  // so that approach_ is found anew
     still_[pairs_[i].a] = still_[pairs_[i].b] = 0;
   }
 }

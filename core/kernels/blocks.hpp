@@ -28,7 +28,7 @@ struct SpeedExtremes {
   double squared = 0;                                   ///< m²/s², the largest
   double sum = 0;                                       ///< m²/s², no number if any is none
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< m/s
-  double stray_squared = 0;                             ///< m²/s², the largest, off the drift of its body
+  double stray_squared = 0;                             ///< m²/s², the largest, off the drift of the corner
   bool any = false;
 
   void add(const SpeedExtremes& other);

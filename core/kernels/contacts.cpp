@@ -53,7 +53,7 @@ inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, Close
   pair.contact_count = 0;
   books.damping_power[i] = 0;
   books.approach[i] = books.drift[pair.a].approach(books.drift[pair.b]);
-  books.ask_again[i] = books.skin ? books.way.of(books.approach[i]) + report.gap : 0;
+  books.ask_again[i] = books.skin ? books.way.of(books.approach[i]) + report.gap - books.rounding : 0;
 }
 
 template <bool few>
@@ -130,10 +130,10 @@ std::uint32_t choose(const double* ask_again, const double* approach, std::uint3
   std::uint32_t* next = chosen;
   // By four, never past the last place: no more are chosen than were looked at.
   if constexpr (simd::lanes > 1) {
-    const simd::Pack time = now.time, strayed = now.strayed;
+    const simd::Pack time = now.time, strayed = now.strayed, travelled = now.travelled;
     Places first{};
     for (; i + simd::lanes <= count; i += simd::lanes) {
-      const simd::Pack way = simd::load(approach + i) * time + strayed;
+      const simd::Pack way = simd::min(simd::load(approach + i) * time + strayed, travelled);
       auto due = static_cast<std::size_t>(simd::bits(simd::load(ask_again + i) <= way));
       for (int four = 0; four < simd::lanes; four += 4, due >>= 4) {
         const std::size_t set = simd::lanes == 4 ? due : due & 15;

@@ -15,20 +15,25 @@ namespace talus::kernels {
 // the pairs that are apart a law was asked about.
 
 /// By how much the bodies of a pair can have closed a gap since some time: as they drift towards each other
-/// at most, and as any two corners have strayed from how they drift.
+/// at most and any two corners have strayed from how they drift; or as any two have come towards each other
+/// at all, if that is less.
 struct Way {
-  double time;     ///< s
-  double strayed;  ///< m
+  double time = 0;                    ///< s
+  double strayed = 0, travelled = 0;  ///< m
 
-  double of(double approach) const { return approach * time + strayed; }
+  double of(double approach) const {
+    const double drifted = approach * time + strayed;
+    return drifted < travelled ? drifted : travelled;
+  }
 };
-/// The velocities with which the corners of a body are taken to go on.
+
+/// The velocities with which the corners of a body are taken to go on (CornerDrift), by a circle around them.
 struct Drift {
   Vec2 mean;          ///< m/s
   double spread = 0;  ///< m/s, by which that of a corner differs at most
 
-  /// The same, counted from rest.
-  Drift from_rest() const { return {{}, approach({})}; }
+  /// By a circle around them and rest.
+  Drift with_rest() const { return {{}, approach({})}; }
 
   /// m/s, by which corners of two bodies differ at most.
   double approach(const Drift& other) const {
@@ -49,6 +54,7 @@ struct PairBooks {
   std::uint32_t history_doubles;
   const Drift* drift;  ///< [body]
   Way way;             ///< up to now
+  double rounding;     ///< m, by which a gap may be less than a law says
   bool skin;           ///< pairs apart need no look until their gap may be closed
 };
 

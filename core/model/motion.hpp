@@ -81,7 +81,7 @@ struct MotionState {
   struct Speeds {
     double largest = 0;   ///< m/s, of a corner; NaN if any is
     double relative = 0;  ///< m/s, bound of the difference between any two corners
-    double stray = 0;     ///< m/s, the most by which a corner differs from the drift of its body
+    double stray = 0;     ///< m/s, the most by which a corner differs from its drift
 
     /// m/s, bound of what each of two corners does to close a gap between them, in the frame that shares it.
     double closing() const { return std::min(largest, relative / 2); }

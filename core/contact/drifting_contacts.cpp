@@ -1,0 +1,59 @@
+#include "contact/contact_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// For so many steps a drift is counted on: what pulls all bodies makes little of it meanwhile.
+constexpr std::uint32_t steps_of_drift = 32;
+constexpr std::size_t bodies_at_once = 256, pairs_at_once = 1024;
+
+}  // namespace
+
+/// What every corner does is told from how it moves now, from now on.
+void ContactStage::take_drift(const Model& model, const MotionState& motion) {
+  workers_.over(model.moving_bodies.size(), bodies_at_once,
+                [&](std::size_t, std::size_t begin, std::size_t end) {
+                  for (std::size_t i = begin; i < end; ++i) {
+                    const std::uint32_t b = model.moving_bodies[i];
+                    drift_[b] = drift_of(model.bodies[b], motion);
+                  }
+                });
+  way_ = {};
+  steps_adrift_ = 0;
+}
+
+kernels::Drift ContactStage::drift_of(const Body& body, const MotionState& motion) {
+  kernels::Drift all;
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    const BoundaryCorner& corner = motion.corners[c];
+    corner_drift_[c] = {static_cast<float>(corner.vx), static_cast<float>(corner.vy)};
+    all.mean.x += corner_drift_[c].x, all.mean.y += corner_drift_[c].y;
+  }
+  const double count = body.corner_end - body.corner_begin;
+  all.mean = {all.mean.x / count, all.mean.y / count};
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    const double x = corner_drift_[c].x - all.mean.x, y = corner_drift_[c].y - all.mean.y;
+    all.spread = std::max(all.spread, x * x + y * y);
+  }
+  all.spread = std::sqrt(all.spread);
+  return all;
+}
+
+/// Once in a while the drift is taken anew, and as much is left of the way to a pair as was before. When that
+/// is, no checkpoint says: nothing of a result depends on who is asked about and is apart.
+void ContactStage::drift_on(const Model& model, const MotionState& motion) {
+  if (++steps_adrift_ < steps_of_drift) return;
+  const kernels::Way gone = way_;
+  take_drift(model, motion);
+  workers_.over(pairs_.size(), pairs_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      ask_again_[i] = std::max(0.0, ask_again_[i] - gone.of(approach_[i]));
+      approach_[i] = drift_[pairs_[i].a].approach(drift_[pairs_[i].b]);
+    }
+  });
+}
+
+}  // namespace talus
