@@ -123,12 +123,25 @@ bool names_a_library(const std::filesystem::path& file, const SceneError& proble
                      [](const Mistake& mistake) { return mistake.pointer.starts_with("/plugins/"); });
 }
 
+/// Of libraries that, by their names, were to bring what others bring now.
+void warn_of_replaced(const Registry& registry, std::vector<std::string>& warnings) {
+  for (const RefusedLibrary& refused : registry.refused) {
+    for (const RegisteredComponent& found : registry.components()) {
+      if (refused.file.stem().string() != fmt::format("lib{}", found.component->name)) continue;
+      warnings.push_back(fmt::format("{} was refused: {}; '{}' comes from {}", refused.file.string(),
+                                     refused.reason, found.component->name, found.file.string()));
+    }
+  }
+}
+
 }  // namespace
 
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
                     const std::vector<Override>& overrides, bool allow_plugins, const Log& log) {
   try {
-    return read_scene(file, registry, {overrides, allow_plugins});
+    Scene scene = read_scene(file, registry, {overrides, allow_plugins});
+    warn_of_replaced(registry, scene.warnings);
+    return scene;
   } catch (const SceneError& problem) {
     load_offered(registry);  // what was refused may be what is missing
     for (const RefusedLibrary& refused : registry.refused) {

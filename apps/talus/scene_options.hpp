@@ -43,7 +43,7 @@ class LibrariesNotAllowed : public SceneError {
 };
 
 /// Reads the scene. Throws LibrariesNotAllowed where it needs --allow-plugins. Warns of libraries that were
-/// refused when a mistake may come from them.
+/// refused when a mistake may come from them; where another brings what one was to bring, the scene does.
 Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
                     const std::vector<Override>& overrides, bool allow_plugins, const Log& log = {});
 

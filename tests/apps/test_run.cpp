@@ -24,6 +24,19 @@ int count_of(const std::string& text, const std::string& words) {
 
 }  // namespace
 
+TEST_CASE("a run tells when a library was refused and another brings what it needs", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  std::filesystem::create_directory(scratch / "mine");
+  std::filesystem::copy_file(TALUS_TEST_LIBRARIES "/libwrong_abi.so", scratch / "mine/liboverlap_area.so");
+  std::filesystem::copy_file(TALUS_TEST_LIBRARIES "/libwrong_abi.so", scratch / "mine/libother.so");
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--plugin-path", "mine"});
+  CHECK(call.code == 0);
+  CHECK_THAT(call.err, Contains("mine/liboverlap_area.so was refused: found ABI") &&
+                           Contains("'overlap_area' comes from " TALUS_PLUGINS) && !Contains("libother"));
+  CHECK(count_of(json_of(scratch / "out/small/run.json")["warnings"].dump(), "was refused") == 1);
+}
+
 TEST_CASE("a run writes its results and will not overwrite them", "[apps][run]") {
   const Scratch scratch;
   const auto scene = scratch.write("small.json", small_scene());
