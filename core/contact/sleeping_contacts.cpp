@@ -29,8 +29,8 @@ void ContactStage::hold_sleeping_pairs() {
   still_.clear();
   for (std::size_t b = 0; b < island_.size(); ++b) {
     still_.push_back(island_[b] != 0 ? 1 : 0);
-    if (island_[b] != 0)
-      drift_[b] = drift_[b].with_rest();  // as it sleeps; its corners' old ones hold when it wakes
+    // It rests; once it wakes, what its corners stray is counted from the drift they had.
+    if (island_[b] != 0) drift_[b] = drift_[b].with_rest();
   }
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {

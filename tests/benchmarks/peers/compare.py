@@ -5,8 +5,8 @@
   compare.py --sizes 504 --rounds 5 --json peers.json
 
 Per program: ns of processor time per moving body and step on one thread, the median over the rounds; its ratio to
-talus with deformable blocks, one of each two master; its step; and what became of the bodies: their root mean square speed at the end, and
-how many pairs of them touch. A program that is not installed is left out.
+talus with deformable blocks, one of each two master; its step; and what became of the bodies: their root mean
+square speed at the end, and how many pairs of them touch. A program that is not installed is left out.
 """
 
 import argparse
