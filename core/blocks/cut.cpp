@@ -4,15 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace talus {
 namespace {
 
 // Shares of the domain's size.
-constexpr double reach = 1e-8;             // by which ends of lines are lengthened
-constexpr double thinnest_of_size = 1e-7;  // width below which a block is a sliver, well above the reach
-constexpr double rounding = 1e-12;         // what crossings may lie off the lines that they are on
+constexpr double reach = 1e-8;                // by which ends of lines are lengthened
+constexpr double thinnest_of_size = 1e-7;     // width below which a block is a sliver, well above the reach
+constexpr double rounding = 1e-12;            // what crossings may lie off the lines that they are on
+constexpr double grids[] = {0, 1e-10, 1e-9};  // that vertices are moved to, the first that does
+constexpr double hairline = 1e-11;            // width of a face that rounding alone made
+
+// Share of the square around the domain by which faces may miss its area: less than any block that is none.
+constexpr double lost = 1e-8;
 
 Vec2 beyond(Vec2 before, Vec2 end, double length) {
   const double dx = end.x - before.x, dy = end.y - before.y, whole = std::hypot(dx, dy);
@@ -30,21 +37,62 @@ std::vector<Vec2> lengthened(const std::vector<Vec2>& points, double length) {
   return all;
 }
 
-std::vector<Block> faces_of(const CutOrder& order, double size, const Geos& geos) {
-  std::vector<Geos::Geometry> lines;
-  for (const Ring& ring : order.domain.loops) {
-    Ring closed = ring;
-    closed.push_back(ring[0]);
-    lines.push_back(geos.line(closed));
+double area_of(const Loops& loops) {
+  return std::accumulate(loops.begin(), loops.end(), 0.0,
+                         [](double sum, const Ring& ring) { return sum + signed_area(ring); });
+}
+
+double perimeter_of(const Loops& loops) {
+  double sum = 0;
+  for (const Ring& ring : loops) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      sum += std::hypot(b.x - a.x, b.y - a.y);
+    }
   }
-  for (const Cut& cut : order.cuts) lines.push_back(geos.line(lengthened(cut.points, reach * size)));
+  return sum;
+}
+
+/// What lies within the domain, of voids, too.
+std::vector<Block> faces_within(const Block& domain, const GEOSGeometry& lines, double grid,
+                                const Geos& geos) {
   std::vector<Block> faces;
-  for (Loops& loops : geos.faces(*geos.noded(std::move(lines)))) {
-    const Vec2 within = geos.point_within(loops);
-    if (!contains(order.domain.loops, within, 0) || (order.is_void && order.is_void(within))) continue;
+  for (Loops& loops : geos.faces(*geos.noded(lines, grid))) {
+    if (!contains(domain.loops, geos.point_within(loops), 0)) continue;
     orient(faces.emplace_back(Block{std::move(loops), {}, 0, {}}));
   }
   return faces;
+}
+
+/// Where two lines all but lie on each other, rounding decides where they cross: hairlines lie between them,
+/// and faces beside those may be lost. Then all vertices are moved to a grid.
+std::vector<Block> faces_of(const CutOrder& order, double size, const Geos& geos) {
+  std::vector<Geos::Geometry> parts;
+  for (const Ring& ring : order.domain.loops) {
+    Ring closed = ring;
+    closed.push_back(ring[0]);
+    parts.push_back(geos.line(closed));
+  }
+  for (const Cut& cut : order.cuts) parts.push_back(geos.line(lengthened(cut.points, reach * size)));
+  const Geos::Geometry lines = geos.collection(GEOS_MULTILINESTRING, std::move(parts));
+  const double domain = area_of(order.domain.loops);
+  for (const double grid : grids) {
+    std::vector<Block> faces = faces_within(order.domain, *lines, grid * size, geos);
+    double sum = 0;
+    for (const Block& face : faces) sum += face.area;
+    const auto is_hairline = [&](const Block& face) {
+      return 2 * face.area < hairline * size * perimeter_of(face.loops);
+    };
+    if (std::abs(sum - domain) > lost * size * size) continue;
+    if (grid == 0 && std::any_of(faces.begin(), faces.end(), is_hairline)) continue;
+    if (order.is_void)
+      std::erase_if(faces, [&](const Block& face) { return order.is_void(geos.point_within(face.loops)); });
+    return faces;
+  }
+  throw std::runtime_error(
+      "the lines cannot be cut into faces that fill the domain: some of them nearly coincide; move them "
+      "apart "
+      "or onto each other");
 }
 
 }  // namespace

@@ -17,18 +17,6 @@ namespace {
 constexpr int closed_flag = 1;
 constexpr int outside_model_space = 8 | 16 | 64;  // polylines in space and meshes
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string shown(std::string_view word) {
-  const std::string_view start = word.substr(0, 40);
-  return printable(start) ? fmt::format("'{}'", start) : "something that is no text";
-}
-
 /// A DXF is a list of groups: a line with a code that tells what the next line is.
 class Parser {
  public:
@@ -41,6 +29,7 @@ class Parser {
     bool has_entities = false;
     do {
       if (code_ == 0 && value_ == "EOF") break;
+      if (code_ == 9 && value_ == "$INSUNITS" && next() && code_ == 70) drawing_.units = flags();
       if (code_ != 2 || value_ != "ENTITIES") continue;
       has_entities = true;
       read_entities();

@@ -18,6 +18,7 @@ struct DxfLine {
 
 struct DxfDrawing {
   std::vector<DxfLine> lines;
+  int units = 0;                           ///< $INSUNITS of the header: 0 none, 6 metres
   std::map<std::string, int> passed_over;  ///< how often entities of other kinds stand in it
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -66,9 +65,8 @@ Geos::Geometry Geos::collection(int type, std::vector<Geometry> parts) const {
   return taken(GEOSGeom_createCollection_r(context_, type, bare.data(), static_cast<unsigned>(bare.size())));
 }
 
-Geos::Geometry Geos::noded(std::vector<Geometry> lines) const {
-  const Geometry all = collection(GEOS_MULTILINESTRING, std::move(lines));
-  return taken(GEOSUnaryUnion_r(context_, all.get()));
+Geos::Geometry Geos::noded(const GEOSGeometry& lines, double grid) const {
+  return taken(grid > 0 ? GEOSUnaryUnionPrec_r(context_, &lines, grid) : GEOSUnaryUnion_r(context_, &lines));
 }
 
 std::vector<Vec2> Geos::points_of(const GEOSGeometry* line) const {

@@ -31,8 +31,9 @@ class Geos {
   Geometry polygon(const Loops& loops) const;
   Geometry collection(int type, std::vector<Geometry> parts) const;
 
-  /// All lines together, with a vertex wherever they meet.
-  Geometry noded(std::vector<Geometry> lines) const;
+  /// All lines of a collection together, with a vertex wherever they meet; on a grid so wide, m, that all
+  /// vertices are moved to, which no rounding upsets, or where they are: 0.
+  Geometry noded(const GEOSGeometry& lines, double grid) const;
   /// The bounded faces between lines that are noded; ends that lead nowhere bound none.
   std::vector<Loops> faces(const GEOSGeometry& lines) const;
   /// The union of polygons whose common sides have the same vertices.

@@ -1,9 +1,12 @@
 #include "blocks/faces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -129,8 +132,18 @@ std::vector<Block> merge_small_faces(std::vector<Block> faces, double smallest, 
       continue;
     }
     std::vector<const Loops*> parts;
-    for (const Number face : group) parts.push_back(&faces[face].loops);
-    for (Loops& loops : geos.joined(parts)) blocks.push_back({std::move(loops), {}, 0, {}});
+    double due = 0, found = 0;
+    for (const Number face : group) {
+      parts.push_back(&faces[face].loops);
+      due += faces[face].area;
+    }
+    for (Loops& loops : geos.joined(parts)) {
+      orient(blocks.emplace_back(Block{std::move(loops), {}, 0, {}}));
+      found += blocks.back().area;
+    }
+    if (std::abs(found - due) > 1e-6 * due)
+      throw std::runtime_error(
+          fmt::format("{:.3g} m² are lost where small faces join their neighbours", due - found));
   }
   return blocks;
 }

@@ -15,19 +15,6 @@
 namespace talus {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// A word of the file as it may be shown.
-std::string shown(std::string_view word) {
-  const std::string_view start = word.substr(0, 40);
-  return printable(start) ? fmt::format("'{}'", start) : "something that is no text";
-}
-
 const char* kind_of(std::uint64_t type) {
   switch (type) {
     case 3:

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace talus {
@@ -21,6 +24,20 @@ inline bool printable(std::string_view name) {
     i += length;
   }
   return true;
+}
+
+/// A word of a file as it may be shown.
+inline std::string shown(std::string_view word) {
+  const std::string_view start = word.substr(0, 40);
+  return printable(start) ? fmt::format("'{}'", start) : "something that is no text";
+}
+
+/// Without the blanks around it.
+inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 }  // namespace talus

@@ -93,6 +93,11 @@ void read_voronoi(Section& section, Joints& joints) {
   joints.sites = sites;
 }
 
+/// Of $INSUNITS, what is not the metres that a drawing is read in.
+constexpr std::pair<int, std::string_view> foreign_units[] = {{1, "inches"},      {2, "feet"},
+                                                              {4, "millimetres"}, {5, "centimetres"},
+                                                              {7, "kilometres"},  {14, "decimetres"}};
+
 void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& section, Joints& joints) {
   const std::string pointer = section.pointer_to("dxf");
   std::set<std::string> layers;
@@ -110,6 +115,11 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
   }
   for (const auto& [kind, count] : drawing.passed_over)
     joints.warnings.push_back(fmt::format("{}: {} of the kind {} passed over", file, count, kind));
+  for (const auto& [number, name] : foreign_units) {
+    if (number == drawing.units)
+      joints.warnings.push_back(
+          fmt::format("{}: drawn in {} ($INSUNITS {}), read as metres", file, name, number));
+  }
 }
 
 void read_drawing(Section& section, const std::filesystem::path& folder, Joints& joints) {
@@ -126,6 +136,7 @@ void read_drawing(Section& section, const std::filesystem::path& folder, Joints&
   }
   try {
     take_drawing(read_dxf(file), file.string(), section, joints);
+    note_file(joints.files, file);
   } catch (const std::runtime_error& failure) {  // InputError or std::system_error
     section.mistakes().add(pointer, failure.what());
   }

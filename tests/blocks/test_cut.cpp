@@ -5,8 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 using namespace talus;
 
@@ -203,4 +207,23 @@ TEST_CASE("far from zero the blocks are the same", "[blocks]") {
   REQUIRE(far.size() == 4);
   CHECK(area_sum(far) == Approx(1).epsilon(1e-8));  // a double holds 5e6 m to 1e-9 m
   for (const SceneBody& body : far) CHECK(body.outer.vertices.size() == 4);
+}
+
+TEST_CASE("a joint that lies on an edge of the domain but for rounding loses no rock", "[blocks]") {
+  for (int dip = 5; dip < 90; dip += 5) {
+    const double rise = 20 * std::tan(dip * std::numbers::pi / 180);
+    for (const auto& [domain, outline] :
+         {std::pair(Ring{{0, 0}, {20, rise}, {20, rise + 8}, {0, 8}},
+                    fmt::format("[[0, 0], [20, {0}], [20, {1}], [0, 8]]", rise, rise + 8)),
+          std::pair(Ring{{0, 0}, {20, rise}, {20, rise + 6}, {10, rise + 6}},
+                    fmt::format("[[0, 0], [20, {0}], [20, {1}], [10, {1}]]", rise, rise + 6))}) {
+      CAPTURE(dip, outline);
+      const auto bodies =
+          made(fmt::format(R"("joint_sets": [{{"dip": {}, "spacing": 3}}, {{"dip": {}, "spacing": 3}}])", dip,
+                           dip + 90),
+               outline);
+      CHECK(area_sum(bodies) == Approx(signed_area(domain)).epsilon(1e-7));
+      for (const SceneBody& body : bodies) CHECK(area_of(body) > 1e-6);
+    }
+  }
 }

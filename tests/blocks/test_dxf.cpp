@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <set>
 
 using namespace talus;
@@ -111,6 +113,20 @@ TEST_CASE("what a drawing has besides lines raises a warning", "[blocks]") {
   const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
   REQUIRE(scene.warnings.size() == 1);
   CHECK_THAT(scene.warnings[0], Contains("joints.dxf: 1 of the kind TEXT passed over"));
+}
+
+TEST_CASE("a drawing in another unit than metres raises a warning", "[blocks]") {
+  const Scratch scratch;
+  for (const auto& [units, said] : {std::pair("4", "joints.dxf: drawn in millimetres ($INSUNITS 4)"),
+                                    std::pair("6", ""), std::pair("0", "")}) {
+    scratch.write("joints.dxf",
+                  fmt::format("  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n{}\n  0\nENDSEC\n", units) +
+                      drawing(line));
+    const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
+    CAPTURE(units);
+    REQUIRE(scene.warnings.size() == (*said == 0 ? 0 : 1));
+    if (*said != 0) CHECK_THAT(scene.warnings[0], Contains(said));
+  }
 }
 
 TEST_CASE("a drawing that is absent or broken is a mistake of the scene", "[blocks]") {
