@@ -105,8 +105,8 @@ class CohesiveOverlap final : public ContactModel {
     inner.active = work.active.data();
     work.overlaps.evaluate(
         *this, inner,
-        {loads.fx, loads.fy, work.next_history.data(),
-         loads.reports != nullptr ? work.reports.data() : nullptr, work.pair_reports.data()});
+        {loads.corner, work.next_history.data(), loads.reports != nullptr ? work.reports.data() : nullptr,
+         work.pair_reports.data()});
   }
 
   static void evaluate_bonds(const ContactBatch& batch, const ContactLoads& loads, std::uint32_t k,
@@ -121,7 +121,7 @@ class CohesiveOverlap final : public ContactModel {
     if (work.bonds.empty() && !batch.bonds_form) return;
     work.finder.take(batch, pair);
     if (batch.bonds_form) form_bonds(batch, work);
-    const LoadSink sink{loads.fx, loads.fy};
+    const LoadSink sink{loads.corner};
     if (overlaps == 0 && !work.bonds.empty()) sink.clear(batch, pair);
     double joint = 0;
     for (const Bond& bond : work.bonds) joint += bond.length;

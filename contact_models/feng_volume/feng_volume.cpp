@@ -47,7 +47,7 @@ class FengVolume final : public ContactModel {
     report = {};
     report.contact_count = finder.find(batch, pair);
     if (report.contact_count == 0) return;
-    const overlap::LoadSink sink{loads.fx, loads.fy};
+    const overlap::LoadSink sink{loads.corner};
     sink.clear(batch, pair);
     overlap::Balance balance;
     for (std::uint32_t c = 0; c < report.contact_count; ++c) {

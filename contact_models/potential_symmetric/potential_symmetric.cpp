@@ -49,7 +49,7 @@ class PotentialSymmetric final : public ContactModel {
     report = {};
     report.contact_count = work.finder.find(batch, pair);
     if (report.contact_count == 0) return;
-    const LoadSink sink{loads.fx, loads.fy};
+    const LoadSink sink{loads.corner};
     sink.clear(batch, pair);
     Balance balance;
     for (std::uint32_t c = 0; c < report.contact_count; ++c) {

@@ -9,12 +9,13 @@ namespace talus::vertex_edge {
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
-  double stored;   ///< J/m, of normal and tangential springs, as counted (with the share)
+  double stored;   ///< J/m, of the tangential spring, as counted (with the share)
   double intact;   ///< 1 while cohesion and tensile strength hold
   double applied;  ///< N/m, tangential force as counted, without damping
+  double pulled;   ///< J/m, what its bond holds across a gap, as counted: lost when it breaks
 };
 
-inline constexpr unsigned spring_doubles = 5;
+inline constexpr unsigned spring_doubles = 6;
 
 /// Springs and strength of one vertex contact.
 struct SpringParameters {

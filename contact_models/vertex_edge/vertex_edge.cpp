@@ -88,11 +88,12 @@ class VertexEdge final : public ContactModel {
                      PairReport& report, Workspace& work) const {
     read_history(batch, pair, work.old);
     find_contacts(batch, pair, work);
-    const overlap::LoadSink sink{loads.fx, loads.fy};
+    const overlap::LoadSink sink{loads.corner};
     if (!work.found.empty()) sink.clear(batch, pair);
     report = {};
     for (const SpringHistory& old : work.old) {
-      report.slip_loss += old.stored;  // what the contacts that live on still hold is taken off again below
+      // What the contacts that live on still hold is taken off again below.
+      report.slip_loss += old.stored + old.pulled;
     }
     std::uint32_t count = 0;
     for (const CornerContact& contact : work.found) {
@@ -112,13 +113,13 @@ class VertexEdge final : public ContactModel {
     old.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
-      old.push_back({h[0], h[1], h[2], h[3], h[4]});
+      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5]});
     }
   }
 
   static void write(const SpringHistory& history, double* to) {
     to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
-    to[4] = history.applied;
+    to[4] = history.applied, to[5] = history.pulled;
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
@@ -183,7 +184,7 @@ class VertexEdge final : public ContactModel {
   /// one.
   static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
     if (const SpringHistory* old = find_old(work.old, contact.key)) return *old;
-    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0};
+    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0};
     if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
     for (const CornerContact& other : work.found) {
       if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
@@ -219,7 +220,7 @@ class VertexEdge final : public ContactModel {
     const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
     const double viscous = std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth));
 
-    const double old_stored = history.stored, old_applied = history.applied;
+    const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
     const SpringForce force =
         spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
     if (force.breaks) history.intact = 0;
@@ -232,9 +233,10 @@ class VertexEdge final : public ContactModel {
         spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
                               : 0;
     history.stored = stored_tangential;
+    history.pulled = contact.depth < 0 ? stored_normal : 0;
     report.stored += stored_normal + stored_tangential;
-    report.slip_loss +=
-        -old_stored - (old_applied + history.applied) * slip / 2 - (stored_tangential - old_stored);
+    report.slip_loss += -old_stored - old_pulled - (old_applied + history.applied) * slip / 2 -
+                        (stored_tangential - old_stored);
     report.penetration = std::max(report.penetration, contact.depth);
 
     report.damping_power += contact.share * viscous * closing * batch.dt;

@@ -37,8 +37,8 @@ class Archive {
     exchange(text.data(), text.size());
   }
 
-  template <class T>
-  void operator()(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void operator()(std::vector<T, Allocator>& values) {
     if constexpr (Plain<T>) {
       values.resize(count(values.size(), sizeof(T)));
       exchange(values.data(), values.size() * sizeof(T));

@@ -38,8 +38,9 @@ std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size
   for (std::uint32_t k = pair.piece_pair_start; k < pair.piece_pair_end; ++k) {
     const PiecePair& pieces = batch.piece_pairs[k];
     for (std::uint32_t c = 0; c < batch.corners_of(pieces); ++c) {
-      compare("fx", p.fx[pieces.load_start + c], q.fx[pieces.load_start + c]);
-      compare("fy", p.fy[pieces.load_start + c], q.fy[pieces.load_start + c]);
+      const CornerLoad &here = p.corner[pieces.load_start + c], &there = q.corner[pieces.load_start + c];
+      compare("load x", here.x, there.x);
+      compare("load y", here.y, there.y);
     }
   }
   const std::uint32_t kept = std::min(one.contact_count, pair.slot_capacity);
@@ -87,7 +88,7 @@ void merge(const GivenBatch& part, const TakenLoads& from, TakenLoads& to) {
     for (std::uint32_t k = pair.piece_pair_start; k < pair.piece_pair_end; ++k) {
       const PiecePair& pieces = part.piece_pairs[k];
       for (std::uint32_t c = pieces.load_start; c < pieces.load_start + part.corners_of(pieces); ++c)
-        to.fx[c] = from.fx[c], to.fy[c] = from.fy[c];
+        to.corner[c] = from.corner[c];
     }
     for (std::uint32_t s = pair.slot_start; s < pair.slot_start + pair.slot_capacity; ++s) {
       to.reports[s] = from.reports[s];
@@ -101,7 +102,7 @@ void merge(const GivenBatch& part, const TakenLoads& from, TakenLoads& to) {
 
 /// Which bytes of `taken` a call on the active pairs of `batch` may not touch, and did; in words.
 std::optional<std::string> trespass(const GivenBatch& batch, const TakenLoads& taken, unsigned char before) {
-  if (!taken.fx.surrounded_by(before) || !taken.fy.surrounded_by(before)) return "past the ends of fx or fy";
+  if (!taken.corner.surrounded_by(before)) return "past the ends of the loads";
   if (!taken.history.surrounded_by(before)) return "past the ends of history";
   if (!taken.reports.surrounded_by(before)) return "past the ends of reports";
   if (!taken.pairs.surrounded_by(before)) return "past the ends of pairs";
@@ -109,8 +110,7 @@ std::optional<std::string> trespass(const GivenBatch& batch, const TakenLoads& t
   const TakenLoads untouched(batch, before);
   TakenLoads rest = taken;
   merge(batch, untouched, rest);
-  if (!rest.fx.same_bytes(untouched.fx) || !rest.fy.same_bytes(untouched.fy))
-    return "the loads of a pair that is not active";
+  if (!rest.corner.same_bytes(untouched.corner)) return "the loads of a pair that is not active";
   if (!rest.history.same_bytes(untouched.history)) return "history slots that belong to no active pair";
   if (!rest.reports.same_bytes(untouched.reports)) return "reports that belong to no active pair";
   if (!rest.pairs.same_bytes(untouched.pairs)) return "the report of a pair that is not active";

@@ -17,6 +17,7 @@ std::span<const Check> contact_checks() {
       {"galilean", "a velocity that both bodies share changes no force", check_galilean},
       {"gap", "bodies apart bear no load, and are as far apart as the law says", check_gap},
       {"tension", "bodies do not pull at each other", check_tension},
+      {"interfaces", "a pair has the parameters of its own interface", check_interfaces},
       {"friction", "|T| <= μ P", check_friction_limit},
       {"potential", "force = -∂Π/∂q in every coordinate of both bodies", check_potential},
       {"account", "what is put in is stored or booked as lost", check_account},

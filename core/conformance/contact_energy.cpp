@@ -54,6 +54,7 @@ void expect_derivative(Trial& trial, DrivenLaw& law, const HeldPair& pair) {
 struct Path {
   DrivenLaw& law;
   double work = 0, booked = 0, stored = 0, turned_over = 0, way = 0;
+  double blurred = 0;  ///< J/m, what the trapezoids may be off where forces jump
   Evaluation last;
 
   explicit Path(DrivenLaw& given) : law(given) { last = law.step(), stored = last.pairs[0].stored; }
@@ -68,8 +69,10 @@ struct Path {
       body.motion.velocity = {d.x / dt, d.y / dt};
       const Vec2 before = last.on(1);
       last = law.step(dt);
-      const double part = -dot({before.x + last.on(1).x, before.y + last.on(1).y}, d) / 2;
+      const Vec2 now = last.on(1);
+      const double part = -dot({before.x + now.x, before.y + now.y}, d) / 2;
       work += part;
+      blurred += std::abs(dot({now.x - before.x, now.y - before.y}, d)) / 2;
       turned_over += std::abs(part);
       way += size_of(d);
       booked += last.pairs[0].slip_loss + last.pairs[0].damping_power;
@@ -93,6 +96,33 @@ Values with_friction(double angle) {
   return with(
       undamped_interface(),
       {{"friction_angle", angle}, {"friction_coefficient", std::tan(angle * 3.14159265358979323846 / 180)}});
+}
+
+/// Bonds that form while bodies touch, and break.
+void expect_bonds_booked(const Subject& subject, Trial& trial) {
+  const Values bonded =
+      with(with_friction(25),
+           {{"cohesion", 2e5}, {"tensile_strength", 1e5}, {"softening_opening", 0}, {"softening_slip", 0}});
+  const std::vector<std::vector<Vec2>> ways{{{0, 5e-4}, {0, 0}}, {{5e-4, 0}, {-5e-4, 0}}, {{2e-4, 3e-4}}};
+  for (const double depth : {0.0, 1e-3}) {
+    for (const std::vector<Vec2>& way : ways) {
+      trial.feed(
+          fmt::format("a block {:g} mm deep in a base, bonds form where the law has any, led over "
+                      "({:g}, {:g}) m",
+                      1e3 * depth, way[0].x, way[0].y));
+      DrivenLaw law(*subject.component, bonded);
+      law.bodies = {box(-2, -1, 2, 0), box(-0.5, -depth, 0.5, 1)};
+      law.bonds_form = true;
+      Path path(law);
+      law.bonds_form = false;
+      for (const Vec2 to : way) path.go(to, 2000);
+      trial.at_most(
+          std::abs(path.work - path.gain() - path.booked),
+          2e-5 * (path.turned_over + path.stored) + path.blurred,
+          fmt::format("|work − (stored + lost)| [J/m], where work is {:.9g}, stored {:.9g}, lost {:.9g}",
+                      path.work, path.gain(), path.booked));
+    }
+  }
 }
 
 /// A small angle, about a point given relative to the centre, of a body that has not moved.
@@ -188,6 +218,7 @@ void check_account(const Subject& subject, Trial& trial) {
                       path.work, path.gain(), path.booked));
     }
   }
+  expect_bonds_booked(subject, trial);
   for (const HeldPair& pair : random_pairs(36)) {
     trial.feed(fed_pair(pair, 0.5) + ", moving, damped");
     DrivenLaw law(*subject.component);
@@ -234,10 +265,13 @@ void check_stiffness(const Subject& subject, Trial& trial) {
   for (const double width : {0.1, 1.0, 8.0}) {
     const double depth = 1e-3;
     const DrivenLaw law(*subject.component);
-    const ContactStiffness declared = law.law().stiffness(law.prepared(lively_interface()).data(), width);
+    // Each end of the side by itself, as the host asks.
+    ContactStiffness declared = law.law().stiffness(law.prepared(lively_interface()).data(), width / 2);
+    declared.normal *= 2;
+    declared.tangential *= 2;
     const Measured found = measured(subject, width, depth);
-    trial.feed(fmt::format("a side {:g} m long, {:g} m deep in a wide base; stiffness(…, {:g} m)", width,
-                           depth, width));
+    trial.feed(fmt::format("a side {:g} m long, {:g} m deep in a wide base; twice stiffness(…, {:g} m)",
+                           width, depth, width / 2));
     // The ends of the block are immersed as well.
     const double allowed = margin + 4 * depth / width;
     trial.at_most(found.normal, allowed * declared.normal, "measured normal stiffness [N/m per m]");

@@ -63,10 +63,12 @@ void check_balance(const Subject& subject, Trial& trial) {
   std::size_t loaded = 0;
   for (const HeldPair& pair : pairs) {
     for (const double share : {0.0, 0.5, 1.0}) {
-      trial.feed(fed_pair(pair, share) + ", moving");
+      const bool settles = share == 1;
+      trial.feed(fed_pair(pair, share) + (settles ? ", moving, hold_stick and bonds_form" : ", moving"));
       DrivenLaw law(*subject.component);
       law.bodies = pair.bodies;
       law.master_share = share;
+      law.hold_stick = law.bonds_form = settles;
       for (int step = 0; step < 3; ++step) {
         const Evaluation e = law.step();
         const double allowed = 1e-12 * e.size() + rounded;
@@ -182,6 +184,7 @@ void check_tension(const Subject& subject, Trial& trial) {
     at_rest(law.bodies);
     const Vec2 still = law.look().on(1);
     const double square = dot(still, still), size = std::sqrt(square);
+    if (size == 0) return;  // a law need not see every overlap
     for (const double speed : {0.1, 3.0, 1e3}) {
       trial.feed(fmt::format("{}, parting at {:g} m/s", fed, speed));
       law.bodies[1].motion.velocity = {speed * still.x / size, speed * still.y / size};
@@ -200,6 +203,36 @@ void check_tension(const Subject& subject, Trial& trial) {
   }
   for (const HeldPair& pair : random_pairs(72)) {
     if (pair.name.find("corner on flat") != std::string::npos) expect_no_pull(pair.bodies, pair.name);
+  }
+}
+
+/// Beside the interface that applies there are others, which no number may come from.
+void check_interfaces(const Subject& subject, Trial& trial) {
+  if (subject.component->component->interface_parameter_count == 0) {
+    trial.not_claimed("no interface parameters");
+    return;
+  }
+  Values other = lively_interface();
+  for (auto& [key, value] : other) value *= 0.5;
+  for (const HeldPair& pair : pairs_without_ties(24)) {
+    for (const bool plain : {true, false}) {
+      trial.feed(fed_pair(pair, 0.5) + (plain ? "" : ", not plain") +
+                 ", the second of three interfaces, beside the same alone");
+      const auto forces = [&](const std::vector<Values>& interfaces, std::uint32_t row) {
+        DrivenLaw law(*subject.component);
+        law.set_interfaces(interfaces, [row](std::uint32_t, std::uint32_t) { return row; });
+        law.bodies = pair.bodies;
+        law.plain = plain;
+        law.step();
+        return law.step();
+      };
+      const Evaluation alone = forces({lively_interface()}, 0),
+                       among = forces({other, lively_interface(), other}, 1);
+      for (std::size_t body = 0; body < 2; ++body) {
+        trial.at_most(difference(alone.forces[body], among.forces[body]), 0,
+                      fmt::format("difference of force [N/m] or moment [N] on body {}", body));
+      }
+    }
   }
 }
 
@@ -316,7 +349,7 @@ void check_strips(const Subject& subject, Trial& trial) {
                       "resultant of all loads [N/m]");
         trial.at_most(std::abs(e.net_moment()), allowed + 2 * std::abs(as_whole.net_moment()),
                       "moment of all loads [N]");
-        for (const CornerLoad& load : e.corners) {
+        for (const LoadedCorner& load : e.corners) {
           trial.due(load.carries, "a load on an inner corner of a strip",
                     "loads at the ends of real sides alone");
         }

@@ -24,20 +24,20 @@ std::span<const T> span_of(const std::vector<T>& values) {
 
 double Evaluation::size() const {
   double sum = 0;
-  for (const CornerLoad& load : corners) sum += std::hypot(load.force.x, load.force.y);
+  for (const LoadedCorner& load : corners) sum += std::hypot(load.force.x, load.force.y);
   return sum;
 }
 
 Vec2 Evaluation::net_force() const {
   Vec2 sum;
-  for (const CornerLoad& load : corners) sum.x += load.force.x, sum.y += load.force.y;
+  for (const LoadedCorner& load : corners) sum.x += load.force.x, sum.y += load.force.y;
   return sum;
 }
 
 double Evaluation::net_moment() const {
   double sum = 0;
   const Vec2 about = corners.empty() ? Vec2{} : corners[0].at;
-  for (const CornerLoad& load : corners) {
+  for (const LoadedCorner& load : corners) {
     sum += (load.at.x - about.x) * load.force.y - (load.at.y - about.y) * load.force.x;
   }
   return sum;
@@ -49,7 +49,7 @@ Vec2 Evaluation::on(std::uint32_t body) const {
 
 double Evaluation::moment_on(std::uint32_t body, Vec2 reference) const {
   double sum = 0;
-  for (const CornerLoad& load : corners) {
+  for (const LoadedCorner& load : corners) {
     if (load.body != body) continue;
     sum += (load.reference.x - reference.x) * load.force.y - (load.reference.y - reference.y) * load.force.x;
   }
@@ -198,7 +198,7 @@ Evaluation DrivenLaw::evaluate(double dt) {
         std::uint32_t load = batch.piece_pairs[p].load_start;
         for (const std::uint32_t piece : {batch.piece_pairs[p].a, batch.piece_pairs[p].b}) {
           for (std::uint32_t c = arrays.piece_start[piece]; c < arrays.piece_start[piece + 1]; ++c, ++load) {
-            const Vec2 force{taken.fx[load], taken.fy[load]};
+            const Vec2 force{taken.corner[load].x, taken.corner[load].y};
             if (force.x == 0 && force.y == 0) continue;
             const std::uint32_t body = arrays.corner_body[c];
             const Vec2 centre = bodies[body].centre;

@@ -12,7 +12,7 @@
 
 namespace talus::conformance {
 
-struct CornerLoad {
+struct LoadedCorner {
   std::uint32_t body;
   Vec2 at;         ///< m, in the world
   Vec2 reference;  ///< m, from the centre of the body
@@ -21,7 +21,7 @@ struct CornerLoad {
 };
 
 struct Evaluation {
-  std::vector<CornerLoad> corners;
+  std::vector<LoadedCorner> corners;
   std::vector<BodyForce> forces;  ///< [body] ΣF and ΣF ⊗ X
   std::vector<PairReport> pairs;
   std::vector<ContactReport> contacts;  ///< of all pairs, one after the other

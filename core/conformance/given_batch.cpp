@@ -53,17 +53,15 @@ std::uint32_t GivenBatch::corners_of(const PiecePair& pieces) const {
 }
 
 TakenLoads::TakenLoads(const GivenBatch& batch, unsigned char value)
-    : fx(batch.load_count, value),
-      fy(batch.load_count, value),
+    : corner(batch.load_count, value),
       history(std::size_t{batch.slot_count} * batch.doubles_per_contact, value),
       reports(batch.slot_count, value),
       pairs(batch.pairs.size(), value) {
-  fx.surround(value), fy.surround(value), history.surround(value), reports.surround(value);
-  pairs.surround(value);
+  corner.surround(value), history.surround(value), reports.surround(value), pairs.surround(value);
 }
 
 ContactLoads TakenLoads::view(bool with_reports) {
-  return {fx.data(), fy.data(), history.data(), with_reports ? reports.data() : nullptr, pairs.data()};
+  return {corner.data(), history.data(), with_reports ? reports.data() : nullptr, pairs.data()};
 }
 
 }  // namespace talus::conformance

@@ -40,7 +40,8 @@ struct GivenBatch {
 
 /// All that a law fills in.
 struct TakenLoads {
-  Guarded<double> fx, fy, history;
+  Guarded<CornerLoad> corner;
+  Guarded<double> history;
   Guarded<ContactReport> reports;
   Guarded<PairReport> pairs;
 

@@ -33,14 +33,34 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   }
   if (due) {
     search_.find(model, motion, near_, candidates_);
+    keep_touching();
     note_neighbours(model);
     slack_ = near_ / 2;
     take_drift(model, motion);
   }
-  if (every_step) search_.find(model, motion, sight * model.mean_width, candidates_);
+  if (every_step) {
+    search_.find(model, motion, sight * model.mean_width, candidates_);
+    keep_touching();
+  }
   rebuild_pairs(model);
   ++searches_;
   return due;
+}
+
+/// A bond may span any gap: pairs in contact stay candidates however far apart their bodies are.
+void ContactStage::keep_touching() {
+  const std::size_t found = candidates_.size();
+  std::size_t k = 0;
+  for (const BodyPair& pair : pairs_) {
+    if (pair.contact_count == 0) continue;
+    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
+      const Candidate touching{pair.a, pair.b, piece_pairs_[p].a, piece_pairs_[p].b};
+      while (k < found && candidates_[k] < touching) ++k;
+      if (k == found || candidates_[k] != touching) append_to(candidates_, touching);
+    }
+  }
+  const auto first = candidates_.begin();
+  std::inplace_merge(first, first + static_cast<std::ptrdiff_t>(found), candidates_.end());
 }
 
 void ContactStage::note_neighbours(const Model& model) {

@@ -1,5 +1,4 @@
 #include "contact/contact_stage.hpp"
-#include "contact/room.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -51,9 +50,9 @@ void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
 }
 
 /// Within one array: first to the front as closely as they go, then from the last on to their places.
-template <class Value>
+template <class Values>
 void ContactStage::move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
-                              std::vector<Value>& values) {
+                              Values& values) {
   const auto at = [&](std::size_t slot) { return values.data() + slot * values_per_slot; };
   std::size_t front = 0;
   for (const BodyPair& pair : pairs_) {

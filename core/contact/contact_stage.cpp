@@ -21,6 +21,13 @@ constexpr double clear_share = 0.8;
 /// Of near_: m, by which places may be off by rounding, and gaps so much smaller than a law says.
 constexpr double rounding_share = 1e-9;
 
+constexpr std::uint32_t most_history_doubles = 4096;
+
+/// Room to grow, as far as it can be counted.
+std::uint32_t doubled(std::uint32_t contacts) {
+  return contacts > std::numeric_limits<std::uint32_t>::max() / 2 ? contacts : 2 * contacts;
+}
+
 void noop(void* /*object*/) noexcept {}
 
 /// [surface class] the first that meets all others at the same interfaces.
@@ -63,7 +70,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       keeps_stored_(scene.sleep.has_value()),
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
-      loads_(model, level, workers),
+      loads_(model, level, workers, scene.sleep.has_value()),
       corner_drift_(model.reference_x.size()),
       drift_(model.bodies.size()) {
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
@@ -75,6 +82,12 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   }
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   history_doubles_ = law_->doubles_per_contact();
+  if (history_doubles_ > most_history_doubles) {
+    throw PluginError(fmt::format(
+        "{}: contact law '{}' gave {} doubles of history per contact; wanted {} at most; mend the law",
+        scene.contact.component->file.string(), scene.contact.component->component->name, history_doubles_,
+        most_history_doubles));
+  }
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
                  scene.contact.component->component->interface_parameter_count};
   const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
@@ -140,6 +153,8 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
     const Wave now = wave(number);
     ask(model, motion, conditions, now, gone, true, close_batch);
     while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
+      fault_ = runaway_of(now);
+      if (!fault_.found.empty()) return;
       make_room();
       ask(model, motion, conditions, now, no_way, false, close_batch);
     }
@@ -214,14 +229,8 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
         conditions.bonds_form,
         gone.travelled == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
         layout_};
-    law_->evaluate(batch, {loads_.x(), loads_.y(), found.history.data(),
+    law_->evaluate(batch, {loads_.corner(), found.history.data(),
                            conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
-#ifdef TALUS_AUDIT
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (found.reports[found.active[i]].contact_count == 0)
-        fill_loads(model, pairs_[begin + found.active[i]], 0);
-    }
-#endif
     each(number, std::span<const std::uint32_t>(found.active).first(count), found);
   };
   workers_.over(batches, 1, ask_batch);
@@ -254,10 +263,11 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     ChunkTotals& chunk = chunk_totals_[begin / pair_chunk + in_batch];
     kernels::ClosedChunk closed;
     kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
-    for (const std::uint32_t i : closed.parted) fill_loads(model, pairs_[begin + i], 0);
+    for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_[begin + i], piece_pairs_, true);
+    for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_[begin + i], piece_pairs_, false);
     chunk.short_of_room = closed.short_of_room.count > 0;
     for (const std::uint32_t i : closed.short_of_room) {
-      capacities_[begin + i] = 2 * found.reports[i].contact_count;
+      capacities_[begin + i] = doubled(found.reports[i].contact_count);
       ask_again_[begin + i] = in_this_step;
     }
     if (!closed.finite) chunk.unsound = first_unsound(begin, of_chunk, found);
@@ -270,7 +280,7 @@ std::uint32_t ContactStage::first_unsound(std::size_t begin, std::span<const std
                                           const Workspace& found) {
   for (const std::uint32_t i : active) {
     const PairReport& r = found.reports[i];
-    if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power))
+    if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power) || std::isnan(r.gap))
       return static_cast<std::uint32_t>(begin + i);
   }
   return no_pair;

@@ -4,6 +4,7 @@
 #include "contact/contact_totals.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
+#include "contact/room.hpp"
 #include "contact/wave_loads.hpp"
 #include "kernels/blocks.hpp"
 #include "kernels/contacts.hpp"
@@ -91,6 +92,7 @@ class ContactStage {
   static constexpr kernels::Way no_way{0, in_this_step, in_this_step};
 
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
+  void keep_touching();
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
   void take_drift(const Model& model, const MotionState& motion);
@@ -101,9 +103,8 @@ class ContactStage {
   void describe_plain_pairs(const Model& model);
   bool fits(const Model& model) const;
   void lay_out_slots(std::span<const std::uint32_t> capacities);
-  template <class Value>
-  void move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
-                  std::vector<Value>& values);
+  template <class Values>
+  void move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities, Values& values);
   void make_room();
   std::size_t batch_of(std::size_t pair) const {
     return static_cast<std::size_t>(std::upper_bound(batch_begin_.begin(), batch_begin_.end(), pair) -
@@ -117,7 +118,7 @@ class ContactStage {
   struct Workspace {
     std::vector<std::uint32_t> active;
     std::vector<PairReport> reports;
-    std::vector<double> history;  ///< of the slots of the batch
+    InLines<double> history;  ///< of the slots of the batch
   };
   struct ChunkTotals : ContactTotals {
     bool short_of_room = false;
@@ -149,6 +150,7 @@ class ContactStage {
                        chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
   }
   void fill_loads(const Model& model, const BodyPair& pair, double value);
+  LawFault runaway_of(const Wave& wave) const;
   LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
@@ -205,7 +207,7 @@ class ContactStage {
   std::vector<std::uint32_t> capacities_;  ///< [pair] its slots, or how many it needs
   /// [batch of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
   std::vector<std::uint32_t> slot_base_{0};
-  std::vector<double> history_;
+  InLines<double> history_;
   std::vector<ContactReport> reports_;           ///< [slot] of the last step that was observed
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake

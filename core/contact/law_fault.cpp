@@ -14,6 +14,7 @@ namespace {
 /// place its own size. And an overlap, share of the bodies' reach, that is rounding itself: what it weighs
 /// along a side of that reach may be left over, too.
 constexpr double allowed_share = 1e-6, least_overlap = 1e-12;
+constexpr std::uint32_t most_contacts = 1'000'000;  ///< of one pair
 
 /// What the loads between two bodies add up to.
 struct PairSum {
@@ -25,6 +26,15 @@ struct PairSum {
 
 }  // namespace
 
+/// A pair of the wave that asks for room without end.
+LawFault ContactStage::runaway_of(const Wave& wave) const {
+  for (std::size_t i = wave.begin; i < wave.end; ++i) {
+    if (capacities_[i] <= 2 * most_contacts) continue;
+    return {fmt::format("more than {} contacts of one pair", most_contacts), true, pairs_[i].a, pairs_[i].b};
+  }
+  return {};
+}
+
 /// Of the pairs of the wave that was evaluated last. Looks at loads only where the host takes them from.
 LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, const Wave& wave) const {
   if (!loads_.intact()) return {"a load written past the last corner of all pairs"};
@@ -33,7 +43,6 @@ LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, c
     const BodyPair& pair = pairs_[chunk_totals_[i].unsound];
     return {"a report that is no number", true, pair.a, pair.b};
   }
-  const double *const load_x = loads_.x(), *const load_y = loads_.y();
   const auto sum_of = [&](const BodyPair& pair) {
     PairSum sum;
     double first_x = 0, first_y = 0;
@@ -48,7 +57,7 @@ LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, c
           const double x = motion.corners[c].x + (of_b ? pair.offset_x : 0);
           const double y = motion.corners[c].y + (of_b ? pair.offset_y : 0);
           if (p == pair.piece_pair_start && !of_b && c == begin) first_x = x, first_y = y;
-          const double fx = load_x[load], fy = load_y[load];
+          const auto [fx, fy] = loads_.corner()[load];
           const double arm_x = x - first_x, arm_y = y - first_y;
           sum.x += fx, sum.y += fy, sum.moment += arm_x * fy - arm_y * fx;
           sum.size += std::abs(fx) + std::abs(fy);

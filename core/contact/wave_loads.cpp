@@ -1,6 +1,5 @@
 #include "contact/wave_loads.hpp"
 
-#include "contact/room.hpp"
 #include "kernels/blocks.hpp"
 
 #include <algorithm>
@@ -11,34 +10,38 @@ namespace talus {
 namespace {
 
 constexpr std::size_t guard_loads = 8;
+constexpr std::uint32_t corners_of_line = 64 / sizeof(CornerLoad);  ///< loads of four corners share one
 constexpr double guard_load = -1.2345678901234567e-300;
 constexpr std::uint32_t nowhere = 0xFFFFFFFFu;
+constexpr std::uint32_t no_loads = 0;  ///< where zeros stand, before all loads
 constexpr std::size_t body_chunk = 64;
 
 std::uint32_t corners_of(const Model& model, std::uint32_t piece) {
   return model.piece_start[piece + 1] - model.piece_start[piece];
 }
 
-/// Calls take(body, loads on a piece of it) for the moving bodies of the pairs, in their order.
+/// Calls take(body, piece, its piece pair, 0 or 1 for a or b) for the moving bodies of the pairs, in their
+/// order.
 template <class Take>
 void visit(const Model& model, std::span<const BodyPair> pairs, std::span<const PiecePair> piece_pairs,
            const Take& take) {
   for (const BodyPair& pair : pairs) {
     for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-      const PiecePair& pieces = piece_pairs[p];
-      const std::uint32_t load_of_b = pieces.load_start + corners_of(model, pieces.a);
-      if (model.moves(pair.a)) take(pair.a, {pieces.load_start, pieces.a});
-      if (model.moves(pair.b)) take(pair.b, {load_of_b, pieces.b});
+      if (model.moves(pair.a)) take(pair.a, piece_pairs[p].a, p, 0);
+      if (model.moves(pair.b)) take(pair.b, piece_pairs[p].b, p, 1);
     }
   }
 }
 
 }  // namespace
 
-WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers)
+WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers, bool may_sleep)
     : workers_(workers),
       kernels_(kernels::block_kernels(level)),
-      wave_size_(pairs_of_wave(workers.threads())) {
+      wave_size_(pairs_of_wave(workers.threads())),
+      may_sleep_(may_sleep) {
+  for (std::uint32_t piece = 0; piece + 1 < model.piece_start.size(); ++piece)
+    most_corners_ = std::max(most_corners_, corners_of(model, piece));
   for (const Body& body : model.bodies) {
     corner_begin_.push_back(body.corner_begin);
     corner_count_.push_back(model.one_piece(body) ? body.corner_end - body.corner_begin : 0);
@@ -53,15 +56,19 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
   bodies_.clear();
   pieces_.clear();
   make_room_in(pieces_, 2 * piece_pairs.size());
-  sum_x_.clear();
-  sum_y_.clear();
+  for (auto& entry : entry_) {
+    make_room_in(entry, piece_pairs.size());
+    entry.assign(piece_pairs.size(), nowhere);
+  }
+  sum_.clear();
   batch_load_.clear();
   std::uint32_t most = 0;
   for (std::size_t first = 0; first < pairs.size(); first += wave_size_) {
     const std::span<const BodyPair> wave = pairs.subspan(first, std::min(wave_size_, pairs.size() - first));
-    std::uint32_t loads = 0;
+    std::uint32_t loads = most_corners_;  // what stands before them are zeros
     for (std::size_t i = 0; i < wave.size(); ++i) {
       if (first + i == batch_begin[batch_load_.size()]) append_to(batch_load_, loads);
+      loads = (loads + corners_of_line - 1) / corners_of_line * corners_of_line;
       for (std::uint32_t p = wave[i].piece_pair_start; p < wave[i].piece_pair_end; ++p) {
         piece_pairs[p].load_start = loads;
         loads += corners_of(model, piece_pairs[p].a) + corners_of(model, piece_pairs[p].b);
@@ -71,11 +78,9 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
     list_bodies(model, wave, piece_pairs);
   }
   append_to(batch_load_, 0U);
-  for (std::vector<double>* values : {&x_, &y_}) {
-    make_room_in(*values, most + guard_loads);
-    values->assign(most, 0.0);
-    values->resize(most + guard_loads, guard_load);
-  }
+  make_room_in(corner_, most + guard_loads);
+  corner_.assign(most, {0, 0});
+  corner_.resize(most + guard_loads, {guard_load, guard_load});
   written_ = false;
   renewed_ = false;
 }
@@ -84,16 +89,15 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
 void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
                             std::span<const PiecePair> piece_pairs) {
   const std::uint32_t first = wave_bodies_.back();
-  visit(model, wave, piece_pairs, [&](std::uint32_t body, const kernels::PieceLoads&) {
+  visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t, std::uint32_t, int) {
     const std::uint32_t before = latest_[body];
     if (before == nowhere || before < first) {
       latest_[body] = static_cast<std::uint32_t>(bodies_.size());
       append_to(bodies_, {body, 0, 0, 0, corner_begin_[body], corner_count_[body], before != nowhere, false});
       if (before != nowhere) {
         if (!bodies_[before].begun) {
-          bodies_[before].sum = static_cast<std::uint32_t>(sum_x_.size());
-          const std::size_t room = std::max<std::size_t>(corner_count_[body], 4);
-          for (std::vector<double>* sums : {&sum_x_, &sum_y_}) sums->resize(sums->size() + room);
+          bodies_[before].sum = static_cast<std::uint32_t>(sum_.size());
+          sum_.resize(sum_.size() + std::max<std::size_t>(corner_count_[body], 4));
         }
         bodies_[before].goes_on = true;
         bodies_.back().sum = bodies_[before].sum;
@@ -109,14 +113,28 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
     at += count;
   }
   pieces_.resize(at);
-  visit(model, wave, piece_pairs, [&](std::uint32_t body, const kernels::PieceLoads& loads) {
-    pieces_[bodies_[latest_[body]].end++] = loads;
+  visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t piece, std::uint32_t p, int side) {
+    const std::uint32_t entry = bodies_[latest_[body]].end++;
+    pieces_[entry] = {no_loads, piece};
+    entry_[side][p] = entry;
   });
+  for (const BodyPair& pair : wave) {
+    if (pair.contact_count > 0) gather(model, pair, piece_pairs, true);
+  }
+}
+
+void WaveLoads::gather(const Model& model, const BodyPair& pair, std::span<const PiecePair> piece_pairs,
+                       bool touching) {
+  for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
+    const std::uint32_t of_a = piece_pairs[p].load_start, of_b = of_a + corners_of(model, piece_pairs[p].a);
+    if (entry_[0][p] != nowhere) pieces_[entry_[0][p]].load = touching ? of_a : no_loads;
+    if (entry_[1][p] != nowhere) pieces_[entry_[1][p]].load = touching ? of_b : no_loads;
+  }
 }
 
 void WaveLoads::begin(std::size_t wave) {
   wave_ = wave;
-  stale_ = renewed_ || (written() && waves() > 1);
+  stale_ = renewed_ || (may_sleep_ && written() && waves() > 1);
   written_.store(false, std::memory_order_relaxed);
   if (wave + 1 == waves()) renewed_ = false;
 }
@@ -124,28 +142,20 @@ void WaveLoads::begin(std::size_t wave) {
 void WaveLoads::prepare(std::size_t batch) {
   if (!stale_) return;
   const std::size_t begin = batch_load_[batch], next = batch_load_[batch + 1];
-  const std::size_t end = next == 0 ? x_.size() - guard_loads : next;
-  for (std::vector<double>* values : {&x_, &y_})
-    std::fill(values->begin() + static_cast<std::ptrdiff_t>(begin),
-              values->begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+  const std::size_t end = next <= begin ? corner_.size() - guard_loads : next;  // a wave begins
+  std::fill(corner() + begin, corner() + end, CornerLoad{0, 0});
 }
 
 void WaveLoads::fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value) {
   const PiecePair& last = pieces_of_pair.back();
   const std::uint32_t begin = pieces_of_pair.front().load_start;
   const std::uint32_t end = last.load_start + corners_of(model, last.a) + corners_of(model, last.b);
-  std::fill(x() + begin, x() + end, value);
-  std::fill(y() + begin, y() + end, value);
+  std::fill(corner() + begin, corner() + end, CornerLoad{value, value});
 }
 
 bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState& motion) {
   const std::size_t first = wave_bodies_[wave_], count = wave_bodies_[wave_ + 1] - first;
-  const kernels::GatheredLoads loads{bodies_.data() + first,
-                                     pieces_.data(),
-                                     x_.data(),
-                                     y_.data(),
-                                     sum_x_.data(),
-                                     sum_y_.data(),
+  const kernels::GatheredLoads loads{bodies_.data() + first, pieces_.data(), corner_.data(), sum_.data(),
                                      still.empty() ? nullptr : still.data()};
   std::atomic<bool> sound{true};
   workers_.over(count, body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -165,19 +175,19 @@ bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState
 /// Returns what adding all of them gives.
 double WaveLoads::add_piece_loads(const Model& model, const kernels::PieceLoads& loads,
                                   MotionState& motion) const {
-  std::uint32_t load = loads.load;
+  const CornerLoad* load = corner() + loads.load;
   if (model.is_strip[loads.piece] != 0) {
     const BoundarySide& side = model.sides[model.strips[model.piece_strip[loads.piece]].side];
-    motion.add_force(side.start, {x_[load], y_[load]});
-    motion.add_force(side.end, {x_[load + 1], y_[load + 1]});
-    return (x_[load] + y_[load]) + (x_[load + 1] + y_[load + 1]);
+    motion.add_force(side.start, {load[0].x, load[0].y});
+    motion.add_force(side.end, {load[1].x, load[1].y});
+    return (load[0].x + load[0].y) + (load[1].x + load[1].y);
   }
   double all = 0;
   BodyForce& force = motion.forces[model.piece_body[loads.piece]];
   for (std::uint32_t c = model.piece_start[loads.piece]; c < model.piece_start[loads.piece + 1];
        ++c, ++load) {
-    force.add({model.reference_x[c], model.reference_y[c]}, {x_[load], y_[load]});
-    all += x_[load] + y_[load];
+    force.add({model.reference_x[c], model.reference_y[c]}, {load->x, load->y});
+    all += load->x + load->y;
   }
   return all;
 }
@@ -186,8 +196,8 @@ bool WaveLoads::intact() const {
   const auto is_guard = [](double load) {
     return std::bit_cast<std::uint64_t>(load) == std::bit_cast<std::uint64_t>(guard_load);
   };
-  return std::all_of(x_.end() - guard_loads, x_.end(), is_guard) &&
-         std::all_of(y_.end() - guard_loads, y_.end(), is_guard);
+  return std::all_of(corner_.end() - guard_loads, corner_.end(),
+                     [&](const CornerLoad& load) { return is_guard(load.x) && is_guard(load.y); });
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/pair_parts.hpp"
+#include "contact/room.hpp"
 #include "kernels/level.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
@@ -18,7 +19,8 @@ namespace talus {
 /// before the next takes its place.
 class WaveLoads {
  public:
-  WaveLoads(const Model& model, SimdLevel level, Workers& workers);
+  /// `may_sleep`: whether pairs in contact may stay unasked.
+  WaveLoads(const Model& model, SimdLevel level, Workers& workers, bool may_sleep);
 
   /// Gives all pieces of the pairs their PiecePair::load_start. `batch_begin` as divide_into_batches() says.
   void lay_out(const Model& model, std::span<const BodyPair> pairs,
@@ -26,11 +28,14 @@ class WaveLoads {
 
   std::size_t waves() const { return wave_bodies_.size() - 1; }
 
-  /// Until the next call the loads are those of this wave. Those of pairs that are not asked about are zero,
-  /// if those of pairs that part were filled with zeros.
+  /// Until the next call the loads are those of this wave.
   void begin(std::size_t wave);
   /// Before a law writes loads of a batch, and where it writes none. Any thread, each batch of the wave once.
   void prepare(std::size_t batch);
+  /// From now on bodies gather what stands at the pieces of a pair, or nothing. Any thread, each pair by one.
+  /// After lay_out() they gather from the pairs that were in contact.
+  void gather(const Model& model, const BodyPair& pair, std::span<const PiecePair> piece_pairs,
+              bool touching);
   /// Sets all loads of a pair, N/m.
   void fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value);
   /// Makes all loads zero as the next waves begin.
@@ -46,10 +51,8 @@ class WaveLoads {
   /// (f_c of Eq. 48), but not on those that are `still` [body]; empty: none is. False if a load is no number.
   bool add(const Model& model, std::span<const char> still, MotionState& motion);
 
-  double* x() { return x_.data(); }  ///< [load] N/m
-  double* y() { return y_.data(); }
-  const double* x() const { return x_.data(); }
-  const double* y() const { return y_.data(); }
+  CornerLoad* corner() { return corner_.data(); }  ///< [load]
+  const CornerLoad* corner() const { return corner_.data(); }
 
   /// Whether nobody wrote past the last load there can be.
   bool intact() const;
@@ -58,22 +61,26 @@ class WaveLoads {
   bool written() const { return written_.load(std::memory_order_relaxed); }
   void list_bodies(const Model& model, std::span<const BodyPair> wave,
                    std::span<const PiecePair> piece_pairs);
+
   double add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
 
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
-  std::vector<std::uint32_t> corner_begin_;    ///< [body]
-  std::vector<std::uint32_t> corner_count_;    ///< [body] of one that is one convex piece; else 0
-  bool any_divided_ = false;                   ///< whether there are others
-  std::vector<double> x_, y_;                  ///< and a guard behind them
-  std::vector<std::uint32_t> batch_load_;      ///< [batch of pairs + 1] its first load; 0: a wave begins
-  std::vector<kernels::BodyLoads> bodies_;     ///< wave after wave
+  std::vector<std::uint32_t> corner_begin_;  ///< [body]
+  std::vector<std::uint32_t> corner_count_;  ///< [body] of one that is one convex piece; else 0
+  bool any_divided_ = false;                 ///< whether there are others
+  InLines<CornerLoad> corner_;               ///< and a guard behind them
+  std::vector<std::uint32_t> batch_load_;    ///< [batch of pairs + 1] its first load; not more: a wave begins
+  std::vector<kernels::BodyLoads> bodies_;   ///< wave after wave
   std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
   std::vector<kernels::PieceLoads> pieces_;
-  std::vector<std::uint32_t> latest_;  ///< [body] in bodies_, while they are listed
-  std::vector<double> sum_x_, sum_y_;  ///< N/m, of bodies that gather from several waves
+  std::vector<std::uint32_t> entry_[2];  ///< [piece pair] of its pieces a and b in pieces_; or nowhere
+  std::vector<std::uint32_t> latest_;    ///< [body] in bodies_, while they are listed
+  std::vector<CornerLoad> sum_;          ///< of bodies that gather from several waves
   std::size_t wave_ = 0;
-  std::size_t wave_size_;  ///< pairs
+  std::size_t wave_size_;           ///< pairs
+  std::uint32_t most_corners_ = 0;  ///< of a piece
+  bool may_sleep_;
   bool renewed_ = false;
   bool stale_ = false;  ///< other loads stand where those of the present wave belong
   std::atomic<bool> written_{false};

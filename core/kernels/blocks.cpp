@@ -253,33 +253,30 @@ inline void add_to(BodyForce& force, const Quad& x, const Quad& y, const Quad& p
   store(moment, &force.moment.xx);
 }
 
-/// Of a body with three or four corners.
+/// Of a body with three or four corners: x and y of the first two side by side, and of the others.
 template <int count>
 inline void add_to_small(const double* reference_x, const double* reference_y, const GatheredLoads& loads,
                          const BodyLoads& body, BodyForce& force, Quad& all) {
-  Quad x{}, y{}, px{}, py{};
+  Quad first{}, others{}, px{}, py{};
   if (body.begun) {
-    load(loads.sum_fx + body.sum, x);
-    load(loads.sum_fy + body.sum, y);
+    load(&loads.sum[body.sum].x, first);
+    load(&loads.sum[body.sum + 2].x, others);
   }
   const PieceLoads* const end = loads.pieces + body.end;
   for (const PieceLoads* piece = loads.pieces + body.begin; piece != end; ++piece) {
-    const std::uint32_t from = piece->load;
-    Quad more_x, more_y;
-    load(loads.fx + from, more_x);
-    load(loads.fy + from, more_y);
-    x += more_x;
-    y += more_y;
+    const CornerLoad* const from = loads.corner + piece->load;
+    Quad more, more_others;
+    load(&from[0].x, more);
+    load(&from[2].x, more_others);
+    first += more;
+    others += more_others;
   }
-  if constexpr (count == 3) {
-    // What came last belongs to the next piece.
-    x = __builtin_shufflevector(x, Quad{}, 0, 1, 2, 4);
-    y = __builtin_shufflevector(y, Quad{}, 0, 1, 2, 4);
-  }
-  all += x + y;
+  // What came last of three corners belongs to the next piece.
+  if constexpr (count == 3) others = __builtin_shufflevector(others, Quad{}, 0, 1, 4, 4);
+  all += first + others;
   if (body.goes_on) {
-    store(x, loads.sum_fx + body.sum);
-    store(y, loads.sum_fy + body.sum);
+    store(first, &loads.sum[body.sum].x);
+    store(others, &loads.sum[body.sum + 2].x);
     return;
   }
   if constexpr (count == 4) {
@@ -289,7 +286,8 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     for (int i = 0; i < 3; ++i) px[i] = reference_x[i];
     for (int i = 0; i < 3; ++i) py[i] = reference_y[i];
   }
-  add_to(force, x, y, px, py);
+  add_to(force, __builtin_shufflevector(first, others, 0, 2, 4, 6),
+         __builtin_shufflevector(first, others, 1, 3, 5, 7), px, py);
 }
 
 /// Apart from the loop over small bodies, which needs all registers.
@@ -298,33 +296,34 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
                                   double& all) {
   const std::uint32_t count = body.corner_count;
   constexpr std::uint32_t most = 16;
-  double sum_x[most], sum_y[most];
+  CornerLoad sum[most];
   for (std::uint32_t part = 0; part < count; part += most) {
     const std::uint32_t here = count - part < most ? count - part : most;
     const std::uint32_t kept = body.sum + part;
     for (std::uint32_t i = 0; i < here; ++i) {
-      sum_x[i] = body.begun ? loads.sum_fx[kept + i] : 0;
-      sum_y[i] = body.begun ? loads.sum_fy[kept + i] : 0;
+      sum[i] = body.begun ? loads.sum[kept + i] : CornerLoad{0, 0};
     }
     for (std::uint32_t at = body.begin; at != body.end; ++at) {
-      const std::uint32_t from = loads.pieces[at].load + part;
-      for (std::uint32_t i = 0; i < here; ++i) sum_x[i] += loads.fx[from + i];
-      for (std::uint32_t i = 0; i < here; ++i) sum_y[i] += loads.fy[from + i];
+      const CornerLoad* const from = loads.corner + loads.pieces[at].load + part;
+      for (std::uint32_t i = 0; i < here; ++i) {
+        sum[i].x += from[i].x;
+        sum[i].y += from[i].y;
+      }
     }
     for (std::uint32_t i = 0; i < here; ++i) {
-      all += sum_x[i] + sum_y[i];
+      const auto [x, y] = sum[i];
+      all += x + y;
       if (body.goes_on) {
-        loads.sum_fx[kept + i] = sum_x[i];
-        loads.sum_fy[kept + i] = sum_y[i];
+        loads.sum[kept + i] = sum[i];
         continue;
       }
       const double px = reference_x[part + i], py = reference_y[part + i];
-      force.force.x += sum_x[i];
-      force.force.y += sum_y[i];
-      force.moment.xx += sum_x[i] * px;
-      force.moment.xy += sum_x[i] * py;
-      force.moment.yx += sum_y[i] * px;
-      force.moment.yy += sum_y[i] * py;
+      force.force.x += x;
+      force.force.y += y;
+      force.moment.xx += x * px;
+      force.moment.xy += x * py;
+      force.moment.yx += y * px;
+      force.moment.yy += y * py;
     }
   }
 }

@@ -36,7 +36,7 @@ struct SpeedExtremes {
 
 /// Loads of one pair on the corners of a piece.
 struct PieceLoads {
-  std::uint32_t load;  ///< index of the first; zeros where the pair does not touch
+  std::uint32_t load;  ///< index of the first; of zeros where the pair does not touch
   std::uint32_t piece;
 };
 
@@ -55,8 +55,8 @@ struct BodyLoads {
 struct GatheredLoads {
   const BodyLoads* bodies;
   const PieceLoads* pieces;  ///< body after body
-  const double *fx, *fy;     ///< N/m; one more may be read than there are
-  double *sum_fx, *sum_fy;   ///< N/m, see BodyLoads::sum
+  const CornerLoad* corner;  ///< one more may be read than there are
+  CornerLoad* sum;           ///< see BodyLoads::sum
   const char* still;         ///< [body] whether to leave it as it is; null: none
 };
 

@@ -49,6 +49,7 @@ inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, Close
   Row row;
   load_row(&report.penetration, row);
   sum += row;
+  if (std::isnan(report.gap)) closed.finite = false;
   if (pair.contact_count != 0) closed.parted.add(i);
   pair.contact_count = 0;
   books.damping_power[i] = 0;
@@ -83,6 +84,7 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
     if (product > 0) mean_power += std::sqrt(product);
     books.damping_power[i] = power;
     books.ask_again[i] = 0;
+    if (pair.contact_count == 0) closed.met.add(*at);
     pair.contact_count = contacts;
     const std::size_t start = std::size_t{pair.slot_start} * books.history_doubles,
                       doubles = std::size_t{contacts} * books.history_doubles;
@@ -93,7 +95,7 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
     }
   }
   const Row all = touching + other;
-  closed.finite = std::isfinite((all[0] + all[1]) + (all[2] + all[3]));
+  closed.finite = closed.finite && std::isfinite((all[0] + all[1]) + (all[2] + all[3]));
   totals.penetration = penetration;
   totals.stored += all[1];
   totals.slip_loss += all[2];

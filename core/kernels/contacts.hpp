@@ -67,6 +67,7 @@ struct ClosedChunk {
     const std::uint32_t* begin() const { return number; }
     const std::uint32_t* end() const { return number + count; }
   };
+  Pairs met;            ///< those that have just come into contact
   Pairs parted;         ///< those that have just lost contact
   Pairs short_of_room;  ///< those with more contacts than slots: they were left as they were
   bool finite = true;   ///< what all reports add up to

@@ -45,7 +45,7 @@ class RecordedStep {
 
   /// The calls, as long as this object stands still.
   std::vector<LawCall> calls() {
-    for (std::vector<double>* loads : {&load_x_, &load_y_}) loads->resize(loads_);
+    corner_loads_.resize(loads_);
     std::vector<LawCall> result;
     for (Batch& each : batches_) {
       each.reports.resize(each.pairs.size());
@@ -58,15 +58,15 @@ class RecordedStep {
       batch.history = each.history.data();
       batch.active = each.active.data();
       result.push_back(
-          {batch, {load_x_.data(), load_y_.data(), each.next_history.data(), nullptr, each.reports.data()}});
+          {batch, {corner_loads_.data(), each.next_history.data(), nullptr, each.reports.data()}});
     }
     return result;
   }
 
   /// All that a law has written.
   std::vector<double> written() const {
-    std::vector<double> all = load_x_;
-    all.insert(all.end(), load_y_.begin(), load_y_.end());
+    std::vector<double> all;
+    for (const CornerLoad& load : corner_loads_) all.insert(all.end(), {load.x, load.y});
     for (const Batch& each : batches_)
       all.insert(all.end(), each.next_history.begin(), each.next_history.end());
     return all;
@@ -132,7 +132,8 @@ class RecordedStep {
   std::vector<PiecePair> piece_pairs_;
   std::vector<std::uint32_t> piece_start_, rows_;
   std::vector<std::uint8_t> is_strip_;
-  std::vector<double> clear_depth_, values_, load_x_, load_y_;
+  std::vector<double> clear_depth_, values_;
+  std::vector<CornerLoad> corner_loads_;
 };
 
 RecordedStep* recorder = nullptr;                   ///< where the law under way is recorded

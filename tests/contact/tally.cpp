@@ -29,8 +29,7 @@ class Tally final : public ContactModel {
         const std::uint32_t* start = batch.boundaries.piece_start;
         const std::uint32_t corners =
             start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];
-        for (std::uint32_t c = 0; c < corners; ++c)
-          loads.fx[pieces.load_start + c] = loads.fy[pieces.load_start + c] = 0;
+        for (std::uint32_t c = 0; c < corners; ++c) loads.corner[pieces.load_start + c] = {0, 0};
       }
       for (std::uint32_t c = 0; c < contacts && c < pair.slot_capacity; ++c) {
         const double age = c < pair.contact_count ? batch.history[pair.slot_start + c] : 0;

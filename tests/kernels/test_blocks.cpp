@@ -11,6 +11,7 @@ using namespace talus::kernels;
 using talus::best_simd_level;
 using talus::BodyForce;
 using talus::BodyMotion;
+using talus::CornerLoad;
 using talus::SimdLevel;
 
 namespace {
@@ -91,7 +92,8 @@ namespace {
 
 /// Loads of up to 13 contacts on bodies of all numbers of corners. Every seventh body is still.
 struct SomeLoads {
-  std::vector<double> x, y, fx, fy, sum_x, sum_y;
+  std::vector<double> x, y;
+  std::vector<CornerLoad> corner, sum;
   std::vector<BodyLoads> bodies;
   std::vector<PieceLoads> pieces;
   std::vector<char> still;
@@ -103,26 +105,25 @@ struct SomeLoads {
     for (std::uint32_t b = 0; b < 6 * 14; ++b) {
       const std::uint32_t count = counts[b % 6], contacts = b / 6;
       const auto corner_begin = static_cast<std::uint32_t>(x.size()),
-                 sum = static_cast<std::uint32_t>(sum_x.size());
+                 first_sum = static_cast<std::uint32_t>(sum.size());
       still.push_back(b % 7 == 3 ? 1 : 0);
       for (std::uint32_t i = 0; i < count; ++i) x.push_back(random()), y.push_back(random());
       const auto first = static_cast<std::uint32_t>(pieces.size());
       for (std::uint32_t c = 0; c < contacts; ++c) {
-        pieces.push_back({static_cast<std::uint32_t>(fx.size()), 0});
-        for (std::uint32_t i = 0; i < count; ++i) fx.push_back(random()), fy.push_back(random());
+        pieces.push_back({static_cast<std::uint32_t>(corner.size()), 0});
+        for (std::uint32_t i = 0; i < count; ++i) corner.push_back({random(), random()});
       }
-      bodies.push_back({b, first, first + contacts, sum, corner_begin, count, begun, goes_on});
-      for (std::uint32_t i = 0; i < std::max(count, 4U); ++i)
-        sum_x.push_back(random()), sum_y.push_back(random());
+      bodies.push_back({b, first, first + contacts, first_sum, corner_begin, count, begun, goes_on});
+      for (std::uint32_t i = 0; i < std::max(count, 4U); ++i) sum.push_back({random(), random()});
     }
     // A row of four may be read from any corner on.
-    for (std::vector<double>* values : {&x, &y, &fx, &fy}) values->insert(values->end(), 4, 0.0);
+    for (std::vector<double>* values : {&x, &y}) values->insert(values->end(), 4, 0.0);
+    corner.insert(corner.end(), 4, {0, 0});
   }
 
   std::vector<BodyForce> add(SimdLevel level) {
     std::vector<BodyForce> forces(bodies.size(), {{1, 2}, {3, 4, 5, 6}});
-    const GatheredLoads loads{bodies.data(), pieces.data(), fx.data(),   fy.data(),
-                              sum_x.data(),  sum_y.data(),  still.data()};
+    const GatheredLoads loads{bodies.data(), pieces.data(), corner.data(), sum.data(), still.data()};
     block_kernels(level).add_loads(loads, x.data(), y.data(), forces.data(), 0, bodies.size());
     return forces;
   }
@@ -134,7 +135,7 @@ TEST_CASE("loads are gathered by all bodies of one piece that move, with the sam
   for (const bool begun : {false, true}) {
     for (const bool goes_on : {false, true}) {
       SomeLoads due(begun, goes_on);
-      const std::vector<double> before = due.sum_x;
+      const std::vector<CornerLoad> before = due.sum;
       const std::vector<BodyForce> forces = due.add(SimdLevel::scalar);
       for (std::size_t b = 0; b < forces.size(); ++b) {
         CAPTURE(begun, goes_on, b);
@@ -142,11 +143,12 @@ TEST_CASE("loads are gathered by all bodies of one piece that move, with the sam
         const bool takes_part = body.corner_count > 0 && due.still[b] == 0;
         double sum = 1, moment = 3;
         for (std::uint32_t i = 0; i < body.corner_count && takes_part; ++i) {
-          double load = begun ? before[body.sum + i] : 0;
-          for (std::uint32_t at = body.begin; at < body.end; ++at) load += due.fx[due.pieces[at].load + i];
+          double load = begun ? before[body.sum + i].x : 0;
+          for (std::uint32_t at = body.begin; at < body.end; ++at)
+            load += due.corner[due.pieces[at].load + i].x;
           sum += load;
           moment += load * due.x[body.corner_begin + i];
-          if (goes_on) CHECK(due.sum_x[body.sum + i] == load);
+          if (goes_on) CHECK(due.sum[body.sum + i].x == load);
         }
         const bool added = takes_part && !goes_on;
         // Rounding of less than three hundred numbers up to 1.
@@ -158,8 +160,7 @@ TEST_CASE("loads are gathered by all bodies of one piece that move, with the sam
         SomeLoads found(begun, goes_on);
         const std::vector<BodyForce> here = found.add(static_cast<SimdLevel>(level));
         for (std::size_t b = 0; b < here.size(); ++b) REQUIRE(same_bits(here[b], forces[b]));
-        CHECK(found.sum_x == due.sum_x);
-        CHECK(found.sum_y == due.sum_y);
+        for (std::size_t i = 0; i < due.sum.size(); ++i) REQUIRE(same_bits(found.sum[i], due.sum[i]));
       }
     }
   }

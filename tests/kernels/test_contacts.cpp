@@ -123,14 +123,17 @@ TEST_CASE("pairs are closed as each alone would be", "[kernels][contacts]") {
       CHECK(got.history == due.history);
       for (std::size_t i = 0; i < got.pairs.size(); ++i)
         REQUIRE(got.pairs[i].contact_count == due.pairs[i].contact_count);
-      std::vector<std::uint32_t> parted, short_of_room;
+      std::vector<std::uint32_t> met, parted, short_of_room;
       for (std::uint32_t i = 0; i < before.size(); ++i) {
-        if (got.reports[i].contact_count > before[i].slot_capacity) short_of_room.push_back(i);
+        const bool is_short = got.reports[i].contact_count > before[i].slot_capacity;
+        if (is_short) short_of_room.push_back(i);
+        if (!is_short && got.reports[i].contact_count > 0 && before[i].contact_count == 0) met.push_back(i);
         if (got.reports[i].contact_count == 0 && before[i].contact_count > 0) parted.push_back(i);
       }
-      std::vector<std::uint32_t> said_parted, said_short;
+      std::vector<std::uint32_t> said_met, said_parted, said_short;
       for (int chunk = 0; chunk < 2; ++chunk) {
         const ClosedChunk& closed = got.closed[chunk];
+        said_met.insert(said_met.end(), closed.met.begin(), closed.met.end());
         said_parted.insert(said_parted.end(), closed.parted.begin(), closed.parted.end());
         said_short.insert(said_short.end(), closed.short_of_room.begin(), closed.short_of_room.end());
         CHECK(closed.finite);
@@ -143,6 +146,7 @@ TEST_CASE("pairs are closed as each alone would be", "[kernels][contacts]") {
         CHECK(sum.deepest_a == wanted.deepest_a);
         CHECK(sum.deepest_b == wanted.deepest_b);
       }
+      CHECK(said_met == met);
       CHECK(said_parted == parted);
       CHECK(said_short == short_of_room);
     }

@@ -24,12 +24,12 @@ class Misbehaving : public SilentLaw {
       const std::uint32_t* start = batch.boundaries.piece_start;
       const std::uint32_t of_b = pieces.load_start + start[pieces.a + 1] - start[pieces.a];
       const std::uint32_t end = of_b + start[pieces.b + 1] - start[pieces.b];
-      for (std::uint32_t load = pieces.load_start; load < end; ++load) loads.fx[load] = loads.fy[load] = 0;
-      if (slip == Slip::nan_load) loads.fy[of_b] = not_a_number;
+      for (std::uint32_t load = pieces.load_start; load < end; ++load) loads.corner[load] = {0, 0};
+      if (slip == Slip::nan_load) loads.corner[of_b].y = not_a_number;
       if (slip == Slip::nan_report) report.stored = not_a_number;
-      if (slip == Slip::past_the_end) loads.fx[end] = 0;
-      if (slip == Slip::one_sided) loads.fy[of_b] = 1;
-      if (slip == Slip::couple) loads.fx[of_b] = 1, loads.fx[of_b + 2] = -1;
+      if (slip == Slip::past_the_end) loads.corner[end].x = 0;
+      if (slip == Slip::one_sided) loads.corner[of_b].y = 1;
+      if (slip == Slip::couple) loads.corner[of_b].x = 1, loads.corner[of_b + 2].x = -1;
     }
   }
 };

@@ -200,3 +200,31 @@ TEST_CASE("a head-on frictionless collision keeps momentum to round-off", "[simu
     }
   }
 }
+
+TEST_CASE("dashpots across a contact do not feed the strain of a block that slides", "[simulation][motion]") {
+  const double slope = 35 * std::numbers::pi / 180, friction = 37 * std::numbers::pi / 180, g = 9.81;
+  // With a wall at its end the base is concave, and the pair goes the general way.
+  const std::string concave =
+      R"({"name": "base", "material": "rock", "fixed": true,
+          "polygon": [[-10, -1], [60, -1], [60, 5], [59, 5], [59, 0], [-10, 0]]})";
+  for (const std::string& base : {box("base", -10, -1, 60, 0, R"("fixed": true)"), concave}) {
+    CAPTURE(base);
+    WorkingScene text;
+    text.gravity = fmt::format("[{:.17g}, {:.17g}]", g * std::sin(slope), -g * std::cos(slope));
+    text.cover = "block";
+    text.material =
+        R"("density": 2500, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.2)";
+    text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 37,
+                        "normal_damping": 0.3, "tangential_damping": 0.3)";
+    text.bodies = base + "," + box("block", 0, 0, 2, 0.5, R"("velocity": [3, 0])");
+    text.rest = R"("settle": {"duration": 0.5, "damping": 200},)";
+    text.time = R"({"end": 2.5})";
+    Simulation simulation(text.read(), {});
+    simulation.settle();
+    while (simulation.advance()) {
+    }
+    const double along = g * (std::sin(slope) - std::tan(friction) * std::cos(slope));
+    CHECK(simulation.body_motion(1).velocity.x == Approx(3 + along * 2.5).epsilon(1e-4));
+    CHECK(simulation.body_motion(1).displacement.x == Approx(3 * 2.5 + along * 2.5 * 2.5 / 2).epsilon(1e-4));
+  }
+}

@@ -44,7 +44,7 @@ struct Interfaces {
 struct PiecePair {
   std::uint32_t a;
   std::uint32_t b;
-  std::uint32_t load_start;  ///< first entry in Loads::fx of this piece pair: corners of a, then corners of b
+  std::uint32_t load_start;  ///< first entry in ContactLoads::corner: corners of a, then corners of b
 };
 
 /// Two bodies that are close enough to touch, or twice the same one that touches itself. The frame of a pair
@@ -139,13 +139,17 @@ struct PairReport {
                ///< not be asked again until they may have come so much closer
 };
 
+/// What acts on a corner, N/m.
+struct CornerLoad {
+  double x, y;
+};
+
 /// What a law fills in, in host memory sized by the host. Nothing is zero before the call: the law writes the
 /// report of every active pair, and of a pair with contacts the loads of all its corners and the slots it
 /// counts. It writes only at indices of the pairs it was given.
 struct ContactLoads {
-  double* fx;       ///< [load] N/m at corners: PiecePair::load_start + position of the corner in the piece
-  double* fy;       ///< [load] N/m
-  double* history;  ///< [slot * doubles_per_contact] of t_n; separate from ContactBatch::history
+  CornerLoad* corner;      ///< [load] PiecePair::load_start + position of the corner in the piece
+  double* history;         ///< [slot * doubles_per_contact] of t_n; separate from ContactBatch::history
   ContactReport* reports;  ///< [slot], or nullptr where nobody wants to see them
   PairReport* pairs;       ///< like ContactBatch::pairs
 };
@@ -164,7 +168,9 @@ class ContactModel {
  public:
   virtual ~ContactModel() = default;
 
-  /// How many doubles of history the host keeps for each contact. A new contact starts with zeros.
+  /// How many doubles of history the host keeps for each contact, 4,096 at most. Those of a pair are the
+  /// first `contact_count` of its slots; the rest are remains. Numbers of bodies, pieces and corners stay
+  /// what they are for a whole run and its continuation, so a law may know a contact again by them.
   virtual std::uint32_t doubles_per_contact() const noexcept = 0;
 
   /// Turns the declared parameters of one interface, once, into what the step wants in their places (the

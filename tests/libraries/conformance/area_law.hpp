@@ -64,11 +64,13 @@ class AreaLaw : public talus::ContactModel {
   }
 
   talus::ContactStiffness stiffness(const double* values, double length) const noexcept override {
-    return {values[0] * length * length, values[2] > 0 ? values[1] : 0, 0, 0};
+    // Half of what a side of twice the length meets: c (2 l)² / 2.
+    return {2 * values[0] * length * length, values[2] > 0 ? values[1] : 0, 0, 0};
   }
 
  protected:
   virtual void begin(const ContactBatch&, const ContactLoads&) const {}
+  virtual std::uint32_t row(const talus::Interfaces& interfaces) const { return interfaces.row[0]; }
   virtual double pressure(const Seen& seen) const { return seen.stiffness * seen.area; }
   virtual double slip_velocity(const Seen& seen) const {
     return seen.longest[1].working_velocity(seen.longest_side[1], friction_point(seen, 1), seen.tangent) -
@@ -148,7 +150,8 @@ class AreaLaw : public talus::ContactModel {
     const double size = length(seen.outward);
     if (size > 0) seen.normal = (1 / size) * seen.outward;
     seen.tangent = {-seen.normal.y, seen.normal.x};
-    const double* values = batch.interfaces.value;  // one surface class is enough here
+    const talus::Interfaces& interfaces = batch.interfaces;  // one surface class is enough here
+    const double* values = interfaces.value + row(interfaces) * interfaces.parameter_count;
     seen.stiffness = values[0], seen.spring = values[1], seen.friction = values[2];
     return seen;
   }
@@ -164,7 +167,7 @@ class AreaLaw : public talus::ContactModel {
       return;
     }
     report.contact_count = 1;
-    const talus::overlap::LoadSink sink{loads.fx, loads.fy};
+    const talus::overlap::LoadSink sink{loads.corner};
     sink.clear(batch, pair);
     const double p = pressure(seen);
     each_overlap(batch, pair, [&](const Piece& a, const Piece& b, const talus::overlap::Polygon& overlap) {

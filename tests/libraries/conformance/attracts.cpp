@@ -21,7 +21,7 @@ class Attracts final : public AreaLaw {
       }
     }
     if (!(nearest < 5e-4)) return false;
-    const talus::overlap::LoadSink sink{loads.fx, loads.fy};
+    const talus::overlap::LoadSink sink{loads.corner};
     sink.clear(batch, *seen.pair);
     const Point pull = (1e3 / nearest) * (seen.first[1].at(corner[1]) - seen.first[0].at(corner[0]));
     sink.at_corner(seen.first[0], corner[0], pull);

@@ -70,8 +70,7 @@ class SoftCorner final : public talus::ContactModel {
         const Piece a{batch.boundaries, start[pieces.a], start[pieces.a + 1], 0, 0, pieces.load_start};
         const Piece b{batch.boundaries, start[pieces.b], start[pieces.b + 1],
                       pair.offset_x,    pair.offset_y,   pieces.load_start + a.end - a.start};
-        for (std::uint32_t load = a.load_start; load < b.load(b.end); ++load)
-          loads.fx[load] = loads.fy[load] = 0;
+        for (std::uint32_t load = a.load_start; load < b.load(b.end); ++load) loads.corner[load] = {0, 0};
         push_out(a, b, 1, batch, pair, loads, loads.pairs[i]);
         push_out(b, a, -1, batch, pair, loads, loads.pairs[i]);
       }
@@ -111,8 +110,8 @@ class SoftCorner final : public talus::ContactModel {
   }
 
   static void add(const ContactLoads& loads, std::uint32_t load, double fx, double fy, double share) {
-    loads.fx[load] += share * fx;
-    loads.fy[load] += share * fy;
+    loads.corner[load].x += share * fx;
+    loads.corner[load].y += share * fy;
   }
 };
 

@@ -8,13 +8,12 @@
 namespace talus::overlap {
 
 inline FrictionHistory read_history(const double* from) {
-  return {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7], from[8]};
+  return {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7]};
 }
 
 inline void write_history(const FrictionHistory& history, double* to) {
   to[0] = history.elastic, to[1] = history.applied, to[2] = history.stored, to[3] = history.contact_length;
-  to[4] = history.x, to[5] = history.y, to[6] = history.slip;
-  to[7] = history.strip_a, to[8] = history.strip_b;
+  to[4] = history.x, to[5] = history.y, to[6] = history.slip, to[7] = history.strips;
 }
 
 /// What the contacts of a pair remember of the step before. Overlaps come, part and go, so which of then is
@@ -62,17 +61,17 @@ class CarriedHistory {
   void name_strips(const OverlapGroups& overlaps, std::uint32_t groups) {
     for (const Overlap& overlap : overlaps.overlaps()) {
       if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
-      carried_[overlap.group].strip_a = 1.0 + overlap.piece[0].first_corner();
-      carried_[overlap.group].strip_b = 1.0 + overlap.piece[1].first_corner();
+      carried_[overlap.group].strips =
+          name_of_strips(overlap.piece[0].first_corner(), overlap.piece[1].first_corner());
     }
   }
 
   /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
   /// neighbours: the two strips tell which is which as long as they touch.
   bool carry_to_same_strips(const FrictionHistory& old) {
-    if (old.strip_a == 0) return false;
+    if (old.strips == 0) return false;
     for (FrictionHistory& now : carried_) {
-      if (now.strip_a != old.strip_a || now.strip_b != old.strip_b) continue;
+      if (now.strips != old.strips) continue;
       now.elastic += old.elastic;
       now.applied += old.applied;
       now.stored += old.stored;

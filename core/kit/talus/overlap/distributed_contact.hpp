@@ -82,7 +82,7 @@ class DistributedContact {
     if constexpr (Law::frictional) carried_.carry(finder_, batch, pair, report);
     if (overlaps == 0) return;
 
-    const LoadSink sink{loads.fx, loads.fy};
+    const LoadSink sink{loads.corner};
     sink.clear(batch, pair);
     const Overlap& first = finder_.overlaps()[0];
     among_strips_ = first.piece[0].is_strip() || first.piece[1].is_strip();
@@ -127,8 +127,7 @@ class DistributedContact {
     const std::uint32_t slot = pair.slot_start + group;
     if constexpr (Law::frictional) {
       FrictionHistory none{};
-      none.strip_a = carried_[group].strip_a;
-      none.strip_b = carried_[group].strip_b;
+      none.strips = carried_[group].strips;
       report.slip_loss += carried_[group].stored;
       write_history(none, loads.history + slot * friction_doubles);
     }
@@ -340,6 +339,7 @@ class DistributedContact {
           std::sqrt(cell.interface.normal_stiffness * pair.reduced_mass / contact_length_);
       const Piece& master = cell.overlap->piece[cell.master];
       const Piece& slave = cell.overlap->piece[1 - cell.master];
+      double on_end = cell.load * master.lever(cell.side, cell.foot);
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
         const Segment& segment = segments_[s];
         // A slave side that leans pushes along the normal of the cell with a part of its load only.
@@ -359,9 +359,13 @@ class DistributedContact {
           sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
           report.damping_power += force * rate[end] * dt;
           cell.load += force;
+          on_end += force * master.lever(cell.side, at);
         }
       }
       cell.load = std::max(0.0, cell.load);
+      // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
+      // the strain of a sliding block.
+      if (cell.load > 0) cell.foot = master.point_at(cell.side, std::clamp(on_end / cell.load, 0.0, 1.0));
     }
   }
 
@@ -381,7 +385,7 @@ class DistributedContact {
     const double old_stored = history.stored, old_applied = history.applied;
     if (!(limit > 0) || contact_length_ == 0) {
       report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
-      history = {0, 0, 0, contact_length_, foot.x, foot.y, 0, history.strip_a, history.strip_b};
+      history = {0, 0, 0, contact_length_, foot.x, foot.y, 0, history.strips};
       return {0, 0};
     }
     if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(limit, batch.dt);

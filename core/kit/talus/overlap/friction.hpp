@@ -2,22 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace talus::overlap {
 
-/// What the host keeps for each overlap: nine doubles.
+/// What the host keeps for each overlap: eight doubles, a line of the cache.
 struct FrictionHistory {
-  double elastic;           ///< N/m, tangential spring force on body b along s_c: −α_T V (Eq. 41)
-  double applied;           ///< N/m, tangential force without damping
-  double stored;            ///< J/m, in the tangential spring
-  double contact_length;    ///< m, L projected on s_c
-  double x, y;              ///< m, where it acts, in the frame of the pair: to know it again
-  double slip;              ///< direction of the force while slipping (±1), 0 while sticking
-  double strip_a, strip_b;  ///< 1 + numbers of the two pieces where one is a strip; else 0, or strip_a is
-                            ///< what the lanes remember of plain bodies (TouchingPair)
+  double elastic;         ///< N/m, tangential spring force on body b along s_c: −α_T V (Eq. 41)
+  double applied;         ///< N/m, tangential force without damping
+  double stored;          ///< J/m, in the tangential spring
+  double contact_length;  ///< m, L projected on s_c
+  double x, y;            ///< m, where it acts, in the frame of the pair: to know it again
+  double slip;            ///< direction of the force while slipping (±1), 0 while sticking
+  double strips;  ///< where a piece is a strip, name_of_strips(); else 0, or what the lanes remember of
+                  ///< plain bodies (TouchingPair)
 };
 
-inline constexpr unsigned friction_doubles = 9;
+inline constexpr unsigned friction_doubles = 8;
+
+/// Tells the strips of a pair of bodies apart by the first corners of both, in one number that is exact:
+/// bodies have fewer than 2²⁶ corners each.
+inline double name_of_strips(std::uint32_t first_a, std::uint32_t first_b) {
+  constexpr std::uint64_t most = 1u << 26;
+  return 1.0 + static_cast<double>(first_a % most * most + first_b % most);
+}
 
 enum class FrictionRule { return_mapping, paper };
 
@@ -25,7 +33,8 @@ struct FrictionInput {
   double stiffness;       ///< N/m per metre of thickness, α_T L
   double limit;           ///< N/m, Σ μ_k P_k; infinite while friction is held stuck
   double contact_length;  ///< m
-  double increment;  ///< m, mean tangential displacement of b relative to a since t_{n-1} (Eq. 38 over L)
+  double increment;  ///< m, slip of b against a since t_{n-1}: where friction acts, or with the paper's rule
+                     ///< the mean along the arcs (Eq. 38 over L)
 };
 
 /// Elastic trial and return to the limit. When the contact shrinks the spring force shrinks with it, or

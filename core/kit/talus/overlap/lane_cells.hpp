@@ -24,11 +24,10 @@ struct LaneCell {
   LaneCorner* master;        ///< where the side starts
   LaneSegment *begin, *end;  ///< its segments
   Pack area;                 ///< m²
-  Pack load;                 ///< N/m, normal
-  Pack lever;                ///< where on the side, 0 to 1
+  Pack lever;                ///< of the point below the centroid on the side, 0 to 1
+  Pack load, on_end;         ///< N/m, normal; the part that the end of the side carries
 
-  /// Below the centroid, on the side.
-  Packs2 foot() const { return master->at + lever * (master[1].at - master->at); }
+  Packs2 side() const { return master[1].at - master->at; }  ///< m
 };
 
 /// Cells of one piece as master, the other as slave (§3.2.1), in closed form by Green's theorem. With s along
@@ -233,8 +232,9 @@ class LaneCells {
     const Mask some = size > 0.0;
     deep = deep | (size < -1e-12 * side.length * clear_depth);
     now.area = simd::only_where(some, size);
-    now.load = stiffness * now.area;
     now.lever = simd::only_where(some, -sum.along / size * inverse_length);
+    now.load = stiffness * now.area;
+    now.on_end = now.load * now.lever;
     stored = stored - stiffness * simd::only_where(some, sum.depth);
     area = area + now.area;
     force = force + now.load * side.normal();

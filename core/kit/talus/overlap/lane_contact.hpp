@@ -293,7 +293,7 @@ class LaneContact {
     const Packs2 normal = master->normal();
     const Pack master_start = simd::dot(normal, master->velocity),
                master_change = simd::dot(normal, master[1].velocity) - master_start;
-    Pack all = cell.load, on_end = cell.load * cell.lever, power = 0.0;
+    Pack all = cell.load, on_end = cell.on_end, power = 0.0;
     for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
       LaneCorner* const slave = at->slave;
       const Pack pressed = stiffness * at->length;
@@ -322,7 +322,10 @@ class LaneContact {
     }
     master[0].push(on_end - all, normal);
     master[1].push(-on_end, normal);
-    if constexpr (damped) cell.load = simd::max(0.0, all);
+    // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
+    // the strain of a sliding block.
+    cell.load = simd::max(0.0, all);
+    cell.on_end = simd::clamp(on_end, 0.0, cell.load);
     return power;
   }
 
@@ -335,20 +338,26 @@ class LaneContact {
     return load;
   }
 
-  /// The feet of all cells by their loads; without load by their areas.
+  /// Where the loads of all cells act together; without load, the mean over their areas.
   Packs2 foot_of_all(Pack load) const {
-    const auto mean = [&](Pack LaneCell::*weight, Pack total) {
+    const auto mean = [&](Pack total, const auto& weight, const auto& on_end) {
       Packs2 moment{0.0, 0.0};
       for (int role = 0; role < roles_; ++role) {
-        for (const LaneCell& cell : cells_[role].cells()) moment = moment + cell.*weight * cell.foot();
+        for (const LaneCell& cell : cells_[role].cells())
+          moment = moment + (weight(cell) * cell.master->at + on_end(cell) * cell.side());
       }
       return 1.0 / total * moment;
     };
-    const Packs2 foot = mean(&LaneCell::load, load);
+    const Packs2 foot = mean(
+        load, [](const LaneCell& cell) { return cell.load; },
+        [](const LaneCell& cell) { return cell.on_end; });
     const Mask loaded = load > 0.0;
     if (simd::bits(loaded) == all_lanes) return foot;
     const Pack area = roles_ == 2 ? cells_[0].area + cells_[1].area : cells_[0].area;
-    return simd::select(loaded, foot, mean(&LaneCell::area, area));
+    const Packs2 middle = mean(
+        area, [](const LaneCell& cell) { return cell.area; },
+        [](const LaneCell& cell) { return cell.area * cell.lever; });
+    return simd::select(loaded, foot, middle);
   }
 
   /// Eqs. 37–44: the slip is that through which the tangential load works. Cells take it by their loads, on
@@ -425,7 +434,6 @@ class LaneContact {
       report_row[lane] = &to.penetration;
       if constexpr (Law::frictional) {
         row[lane] = here ? loads.history + std::size_t{g.slot[lane]} * friction_doubles : spare_history;
-        row[lane][8] = 0;
         second_row[lane] = row[lane] + 4;
       }
     }

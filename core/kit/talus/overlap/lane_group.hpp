@@ -62,7 +62,7 @@ struct LaneGroup {
   LaneRows<corners> rows[2];
   std::uint32_t pair[lanes];                                  ///< in the batch
   std::uint32_t slot[lanes];                                  ///< of its contact
-  std::uint32_t load_start[2][lanes];                         ///< [piece] first entry in ContactLoads::fx
+  std::int32_t load_shift[2][lanes];                          ///< [piece] from its corners to their loads
   std::uint32_t interface_row[lanes];                         ///< Interfaces::row
   alignas(64) double offset_x[2][lanes], offset_y[2][lanes];  ///< m, of pieces
   alignas(64) double reduced_mass[lanes], clear_depth[lanes];
@@ -95,14 +95,12 @@ struct LaneGroup {
   template <int sides, int other_sides>
   void write_loads(const ContactLoads& loads, LaneBits wanted, const LanePiece<corners>* piece) const {
     if constexpr (sides != mixed) {
-      if (wanted == all_lanes) {
-        write_rows<sides>(loads, 0, piece[0].corner);
-        write_rows<other_sides>(loads, 1, piece[1].corner);
-        return;
-      }
+      write_alike<sides>(loads, 0, wanted, piece[0].corner);
+      write_alike<other_sides>(loads, 1, wanted, piece[1].corner);
+    } else {
+      write_any(loads, 0, wanted, piece[0].corner);
+      write_any(loads, 1, wanted, piece[1].corner);
     }
-    write_any<corners_of(sides, corners)>(loads, 0, wanted, piece[0].corner);
-    write_any<corners_of(other_sides, corners)>(loads, 1, wanted, piece[1].corner);
   }
 
  private:
@@ -122,7 +120,8 @@ struct LaneGroup {
     for (int body = 0; body < 2; ++body) {
       const int piece = swap ? 1 - body : body;
       // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
-      load_start[piece][lane] = at.load_start + (body == 0 ? 0U : at.plain_corners[0]);
+      const std::uint32_t load_start = at.load_start + (body == 0 ? 0U : at.plain_corners[0]);
+      load_shift[piece][lane] = static_cast<std::int32_t>(load_start - at.corner_start[body]);
       rows[piece].place(lane, at.corner_start[body], at.plain_corners[body], touching.start(body));
       offset_x[piece][lane] = body == 0 ? 0 : at.offset_x;
       offset_y[piece][lane] = body == 0 ? 0 : at.offset_y;
@@ -142,44 +141,53 @@ struct LaneGroup {
     alike = other == 0;
   }
 
-  /// All lanes are wanted and have three or four corners.
+  /// Of lanes that all have three or four corners. Those that are not wanted write beside.
   template <int sides>
-  void write_rows(const ContactLoads& loads, int p, const LaneCorner* corner) const {
-    double *x[lanes], *y[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      x[lane] = loads.fx + load_start[p][lane];
-      y[lane] = loads.fy + load_start[p][lane];
+  void write_alike(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* corner) const {
+    CornerLoad beside[sides];
+    const auto place_of = [](const CornerLoad* first, std::ptrdiff_t shift) {
+      return reinterpret_cast<std::uintptr_t>(first) +
+             static_cast<std::uintptr_t>(shift) * sizeof(CornerLoad);
+    };
+    std::uintptr_t from[lanes];  // where the load of the host's first corner would be
+    for (int lane = 0; lane < lanes; ++lane) from[lane] = place_of(loads.corner, load_shift[p][lane]);
+    if (wanted != all_lanes) {
+      each_lane(all_lanes & ~wanted, [&](int lane) {
+        from[lane] = place_of(beside, -static_cast<std::ptrdiff_t>(rows[p].first[lane]));
+      });
     }
-    const Pack load_x[4] = {corner[0].load.x, corner[1].load.x, corner[2].load.x, corner[3].load.x},
-               load_y[4] = {corner[0].load.y, corner[1].load.y, corner[2].load.y, corner[3].load.y};
-    simd::scatter_turned_rows<sides>(load_x, rows[p].start, x);
-    simd::scatter_turned_rows<sides>(load_y, rows[p].start, y);
+    constexpr std::uintptr_t bytes_per_double = sizeof(CornerLoad) * sizeof(double) / sizeof(BoundaryCorner);
+    for (int i = 0; i < sides; ++i) {
+      double* to[lanes];
+      for (int lane = 0; lane < lanes; ++lane)
+        to[lane] = reinterpret_cast<double*>(from[lane] + rows[p].row[i][lane] * bytes_per_double);
+      simd::scatter_points(corner[i].load, to);
+    }
   }
 
   /// Load that came to the repeated first corner of a piece with fewer corners goes to that corner.
-  template <int most>
   void write_any(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* from) const {
-    alignas(64) double x[most][lanes], y[most][lanes];
-    for (int i = 0; i < most; ++i) {
+    alignas(64) double x[corners][lanes], y[corners][lanes];
+    for (int i = 0; i < corners; ++i) {
       simd::store(from[i].load.x, x[i]);
       simd::store(from[i].load.y, y[i]);
     }
     each_lane(wanted, [&](int lane) {
       const auto size = static_cast<int>(rows[p].count[lane]);
-      for (int i = size; i < most; ++i) {
+      for (int i = size; i < corners; ++i) {
         x[0][lane] += x[i][lane];
         y[0][lane] += y[i][lane];
       }
-      double *const to_x = loads.fx + load_start[p][lane], *const to_y = loads.fy + load_start[p][lane];
+      CornerLoad* const to = loads.corner + (std::ptrdiff_t{rows[p].first[lane]} + load_shift[p][lane]);
       auto corner = static_cast<int>(rows[p].start[lane]);
       for (int i = 0; i < size; ++i) {
-        to_x[corner] = x[i][lane];
-        to_y[corner] = y[i][lane];
+        to[corner] = {x[i][lane], y[i][lane]};
         if (++corner == size) corner = 0;
       }
     });
   }
 };
+static_assert(sizeof(CornerLoad) * sizeof(double) % sizeof(BoundaryCorner) == 0);
 
 /// What a law reads of the interfaces of a group.
 struct LaneParameters {

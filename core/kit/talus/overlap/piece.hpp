@@ -87,6 +87,9 @@ class Piece {
     const Shares s = shares_of(point);
     return dot(direction, s.of_0 * velocity(0) + s.of_i * velocity(s.i) + s.of_next * velocity(s.i + 1));
   }
+  Point point_at(std::uint32_t side, double lever_arm) const {
+    return (1 - lever_arm) * at(side) + lever_arm * at(next(side));
+  }
   Point velocity_at(std::uint32_t side, double lever_arm) const {
     return (1 - lever_arm) * velocity(side) + lever_arm * velocity(next(side));
   }
@@ -100,13 +103,12 @@ class Piece {
   bool is_strip_ = false;
 
  public:
-  std::uint32_t load_start = 0;  ///< first entry of this piece in ContactLoads::fx
+  std::uint32_t load_start = 0;  ///< first entry of this piece in ContactLoads::corner
 };
 
 /// Adds loads at the corners of pieces.
 struct LoadSink {
-  double* fx;
-  double* fy;
+  CornerLoad* load;
 
   /// All corners of a pair's pieces free of load.
   void clear(const ContactBatch& batch, const BodyPair& pair) const {
@@ -115,14 +117,14 @@ struct LoadSink {
       const std::uint32_t* start = batch.boundaries.piece_start;
       const std::uint32_t count =
           start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];
-      std::fill_n(fx + pieces.load_start, count, 0.0);
-      std::fill_n(fy + pieces.load_start, count, 0.0);
+      std::fill_n(load + pieces.load_start, count, CornerLoad{0, 0});
     }
   }
 
   void at_corner(const Piece& piece, std::uint32_t corner, Point force) const {
-    fx[piece.load_start + corner] += force.x;
-    fy[piece.load_start + corner] += force.y;
+    CornerLoad& at = load[piece.load_start + corner];
+    at.x += force.x;
+    at.y += force.y;
   }
 
   /// A force on a side by the lever rule: exact, for the weights are affine along it.

@@ -70,6 +70,15 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
   const __m256d even = two(0), odd = two(1);
   return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
 }
+/// The way back: a point to a place of each lane.
+[[gnu::always_inline]] inline void scatter_points(Packs2 p, double* const* to) {
+  const auto put = [&](int lane, __m256d two) {  // of this lane and the second after it
+    _mm_storeu_pd(to[lane], _mm256_castpd256_pd128(two));
+    _mm_storeu_pd(to[lane + 2], _mm256_extractf128_pd(two, 1));
+  };
+  put(0, _mm256_unpacklo_pd(p.x.value, p.y.value));
+  put(1, _mm256_unpackhi_pd(p.x.value, p.y.value));
+}
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
 [[gnu::always_inline]] inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   const __m256d p = _mm256_loadu_pd(from[0] + skip), q = _mm256_loadu_pd(from[1] + skip),

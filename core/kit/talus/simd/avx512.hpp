@@ -72,6 +72,17 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
   const __m512d even = four(0), odd = four(1);
   return {_mm512_maskz_unpacklo_pd(0xFF, even, odd), _mm512_maskz_unpackhi_pd(0xFF, even, odd)};
 }
+/// The way back: a point to a place of each lane.
+[[gnu::always_inline]] inline void scatter_points(Packs2 p, double* const* to) {
+  const auto put = [&](int lane, __m512d four) {  // of this lane and each second one after it
+    _mm_storeu_pd(to[lane], _mm512_maskz_extractf64x2_pd(0xFF, four, 0));
+    _mm_storeu_pd(to[lane + 2], _mm512_maskz_extractf64x2_pd(0xFF, four, 1));
+    _mm_storeu_pd(to[lane + 4], _mm512_maskz_extractf64x2_pd(0xFF, four, 2));
+    _mm_storeu_pd(to[lane + 6], _mm512_maskz_extractf64x2_pd(0xFF, four, 3));
+  };
+  put(0, _mm512_maskz_unpacklo_pd(0xFF, p.x.value, p.y.value));
+  put(1, _mm512_maskz_unpackhi_pd(0xFF, p.x.value, p.y.value));
+}
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
 [[gnu::always_inline]] inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   const auto two = [&](int lane) {  // of this lane and the one four further on

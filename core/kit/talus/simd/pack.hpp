@@ -25,29 +25,6 @@ inline namespace TALUS_SIMD_LEVEL {
 [[gnu::always_inline]] inline void scatter_rows(const Pack* from, double* const* to) {
   each_row(from, [&](int lane, __m256d row) { _mm256_storeu_pd(to[lane], row); });
 }
-/// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
-/// lane.
-template <int count>
-[[gnu::always_inline]] inline void scatter_turned_rows(const Pack* from, const Numbers& start,
-                                                       double* const* to) {
-  alignas(32) static constexpr std::int32_t halves[2][4][8] = {
-      {{0, 1, 2, 3, 4, 5}, {4, 5, 0, 1, 2, 3}, {2, 3, 4, 5, 0, 1}, {}},
-      {{0, 1, 2, 3, 4, 5, 6, 7},
-       {6, 7, 0, 1, 2, 3, 4, 5},
-       {4, 5, 6, 7, 0, 1, 2, 3},
-       {2, 3, 4, 5, 6, 7, 0, 1}}};
-  each_row(from, [&](int lane, __m256d row) {
-    const std::int32_t* turn = halves[count - 3][start[lane]];
-    const __m256d turned = _mm256_castps_pd(_mm256_permutevar8x32_ps(
-        _mm256_castpd_ps(row), _mm256_load_si256(reinterpret_cast<const __m256i*>(turn))));
-    if constexpr (count == 4) {
-      _mm256_storeu_pd(to[lane], turned);
-    } else {
-      _mm_storeu_pd(to[lane], _mm256_castpd256_pd128(turned));
-      _mm_store_sd(to[lane] + 2, _mm256_extractf128_pd(turned, 1));
-    }
-  });
-}
 #endif
 
 inline Mask operator>(Pack p, Pack q) {

@@ -57,6 +57,11 @@ inline void separate(const Pack* from, Pack& p, Pack& q) {
 inline Packs2 gather_points(const double* const* from) {
   return {from[0][0], from[0][1]};
 }
+/// The way back: a point to a place of each lane.
+inline void scatter_points(Packs2 p, double* const* to) {
+  to[0][0] = p.x.value;
+  to[0][1] = p.y.value;
+}
 /// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
 inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
   for (int i = 0; i < 4; ++i) to[i] = from[0][skip + i];
@@ -64,12 +69,6 @@ inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
 /// The way back: to[lane][i] gets from[i] of that lane.
 inline void scatter_rows(const Pack* from, double* const* to) {
   for (int i = 0; i < 4; ++i) to[0][i] = from[i].value;
-}
-/// The first `count`, 3 or 4, of each row, turned: to[lane][(start[lane] + i) % count] gets from[i] of that
-/// lane.
-template <int count>
-inline void scatter_turned_rows(const Pack* from, const Numbers& start, double* const* to) {
-  for (unsigned i = 0; i < count; ++i) to[0][(start[0] + i) % count] = from[i].value;
 }
 inline Pack operator+(Pack p, Pack q) {
   return p.value + q.value;

@@ -79,10 +79,11 @@ class TwoBodies {
                              hold_stick,
                              bonds_form};
     // Nothing is zero before the call; what stays unwritten shows as not a number.
-    std::vector<double> fx(corners_.size(), NAN), fy(corners_.size(), NAN), next(history_.size(), NAN);
+    std::vector<CornerLoad> load(corners_.size(), {NAN, NAN});
+    std::vector<double> next(history_.size(), NAN);
     Outcome outcome;
     outcome.contacts.resize(capacity);
-    law.evaluate(batch, {fx.data(), fy.data(), next.data(), outcome.contacts.data(), &outcome.report});
+    law.evaluate(batch, {load.data(), next.data(), outcome.contacts.data(), &outcome.report});
     contacts_ = outcome.report.contact_count;
     if (contacts_ > capacity) throw std::runtime_error("more contacts than TwoBodies has room for");
     outcome.contacts.resize(contacts_);
@@ -90,10 +91,10 @@ class TwoBodies {
     outcome.history.assign(next.begin(), next.begin() + std::size_t{contacts_} * doubles);
     outcome.loads.assign(corners_.size(), {0, 0});
     for (std::size_t i = 0; contacts_ > 0 && i < corners_.size(); ++i) {
-      outcome.loads[i] = {fx[i], fy[i]};
-      outcome.net.x += fx[i], outcome.net.y += fy[i];
-      outcome.net_moment += corners_[i].x * fy[i] - corners_[i].y * fx[i];
-      if (i >= count_a_) outcome.on_b.x += fx[i], outcome.on_b.y += fy[i];
+      outcome.loads[i] = {load[i].x, load[i].y};
+      outcome.net.x += load[i].x, outcome.net.y += load[i].y;
+      outcome.net_moment += corners_[i].x * load[i].y - corners_[i].y * load[i].x;
+      if (i >= count_a_) outcome.on_b.x += load[i].x, outcome.on_b.y += load[i].y;
     }
     return outcome;
   }
