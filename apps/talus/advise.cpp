@@ -3,6 +3,7 @@
 #include "scene/tables.hpp"
 #include "scene_options.hpp"
 #include "study_options.hpp"
+#include "terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -67,7 +68,7 @@ int advise_command(const Words& words) {
   const StudyPlan plan = given->count("vary") != 0 ? plan_of(usage, *given) : steps_of(usage, *given);
   const Study study = make_study(usage, *given, words, plan);
   if (study.interrupted) {
-    fmt::print(stderr, "interrupted; the same words go on with the study in {}\n", study.folder.string());
+    tell(fmt::format("interrupted; the same words go on with the study in {}\n", study.folder.string()));
     return exit_code::interrupted;
   }
   fmt::print("{}\n", study_table(plan, study.runs, study.findings));

@@ -17,10 +17,11 @@ constexpr std::array codes{
     Explained{"2", "bad input: the scene or the command line"},
     Explained{
         "3",
-        "a library that was named was refused, or a scene names libraries and --allow-plugins is missing"},
+        "a library that was named was refused, its stiffness is no number, or a scene names libraries and "
+        "--allow-plugins is missing"},
     Explained{"4", "numerical trouble stopped a run"},
     Explained{"5", "a file could not be read or written"},
-    Explained{"6", "a tolerance that the scene states was broken"},
+    Explained{"6", "a tolerance that the scene states was broken; advise: no run kept the error"},
     Explained{"130",
               "interrupted or out of wall time; what was done so far is written, `talus resume` goes on"},
 };

@@ -4,7 +4,8 @@
 
 namespace talus {
 
-/// From now on Ctrl-C and SIGTERM raise the returned flag; a second one ends the program at once.
+/// From now on Ctrl-C, SIGTERM and, where it is not ignored, a closed terminal raise the returned flag; a
+/// second one ends the program at once.
 const std::atomic<bool>* watch_for_interrupts();
 
 }  // namespace talus

@@ -41,11 +41,27 @@ void check_libraries(const Checkpoint& checkpoint, const Scene& scene) {
   }
 }
 
+void check_files(const Checkpoint& checkpoint, const Scene& scene) {
+  if (scene.files == checkpoint.files) return;
+  std::string changed;
+  for (const auto& [file, hash] : checkpoint.files) {
+    const auto now = scene.files.find(file);
+    if (now == scene.files.end() || now->second != hash)
+      changed += fmt::format("{}'{}'", changed.empty() ? "" : ", ", file);
+  }
+  throw InputError(
+      fmt::format("what the scene '{}' reads is no longer what the run was started with: {} changed; restore "
+                  "it, or run the "
+                  "scene anew",
+                  checkpoint.scene_file.string(), changed));
+}
+
 Scene scene_of(const Checkpoint& checkpoint, Registry& registry, const Log& log) {
   Scene scene = read_scene_text(checkpoint.scene_text, checkpoint.scene_file.string(), registry,
                                 {checkpoint.overrides, checkpoint.allow_plugins});
   for (const std::string& warning : scene.warnings) log.warning(warning);
   check_libraries(checkpoint, scene);
+  check_files(checkpoint, scene);
   return scene;
 }
 

@@ -37,7 +37,7 @@ void Log::warning(const std::string& words) const {
 void Log::info(const std::string& event, const std::string& words, const Fields& fields) const {
   if (!shows(LogLevel::info)) return;
   if (in_json()) return write("info", event, words, fields);
-  if (!words.empty()) fmt::print(stderr, "{}\n", words);
+  if (!words.empty()) tell(fmt::format("{}\n", words));
 }
 
 void Log::write(const char* level, const std::string& event, const std::string& words,
@@ -45,7 +45,7 @@ void Log::write(const char* level, const std::string& event, const std::string& 
   Fields line{{"time", present_time()}, {"level", level}, {"event", event}};
   if (!words.empty()) line["message"] = words;
   if (fields.is_object()) line.update(fields);
-  fmt::print(stderr, "{}\n", line.dump(-1, ' ', false, Fields::error_handler_t::replace));
+  tell(fmt::format("{}\n", line.dump(-1, ' ', false, Fields::error_handler_t::replace)));
   std::fflush(stderr);
 }
 

@@ -7,6 +7,7 @@
 #include "scene/read.hpp"
 #include "scene_options.hpp"
 #include "simulation/simulation.hpp"
+#include "terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -47,9 +48,8 @@ int report(const UsageError& problem, const Log& log) {
   const bool program = problem.command.empty();
   log.error(program ? problem.what() : fmt::format("talus {}: {}", problem.command, problem.what()));
   if (log.in_json()) return exit_code::bad_input;
-  fmt::print(stderr, "{}\n",
-             program ? std::string("`talus --help` lists the commands.")
-                     : fmt::format("`talus {} --help` lists what it takes.", problem.command));
+  tell(fmt::format("{}\n", program ? std::string("`talus --help` lists the commands.")
+                                   : fmt::format("`talus {} --help` lists what it takes.", problem.command)));
   return exit_code::bad_input;
 }
 
@@ -62,9 +62,9 @@ int report(const SceneError& problem, int code, const Log& log) {
   }
   if (log.in_json()) return code;
   const std::size_t listed = problem.mistakes.size() - (problem.more > 0 ? 1 : 0);
-  fmt::print(stderr, "{} mistake{} in the scene{}\n", listed + problem.more,
-             listed + problem.more == 1 ? "" : "s",
-             problem.more > 0 ? fmt::format(", the first {} of them shown", listed) : "");
+  tell(fmt::format("{} mistake{} in the scene{}\n", listed + problem.more,
+                   listed + problem.more == 1 ? "" : "s",
+                   problem.more > 0 ? fmt::format(", the first {} of them shown", listed) : ""));
   return code;
 }
 

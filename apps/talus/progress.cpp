@@ -41,7 +41,7 @@ void Progress::show(double share, const std::string& words) {
 
 void Progress::clear() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\033[K");
+  tell("\r\033[K");
   std::fflush(stderr);
   drawn_ = false;
 }
@@ -49,8 +49,8 @@ void Progress::clear() {
 void Progress::draw_bar(double share, const std::string& words, double elapsed) {
   constexpr int width = 30;
   const int filled = static_cast<int>(share * width);
-  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {} left\033[K", "", filled, "", width - filled,
-             std::floor(100 * share), words, left_text(share, share - begin_, elapsed));
+  tell(fmt::format("\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {} left\033[K", "", filled, "", width - filled,
+                   std::floor(100 * share), words, left_text(share, share - begin_, elapsed)));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -21,6 +21,7 @@ Checkpoint as_started(const std::filesystem::path& file, const RunOrder& order, 
   Checkpoint run;
   run.scene_file = std::filesystem::absolute(file);
   run.scene_text = read_whole_file(file);
+  run.files = scene.files;
   run.overrides = order.overrides;
   run.allow_plugins = given.count("allow-plugins") != 0;
   run.plugin_folders = plugin_folders_of(usage, given);
@@ -34,12 +35,14 @@ Checkpoint as_started(const std::filesystem::path& file, const RunOrder& order, 
 }  // namespace
 
 Usage usage_of_run() {
-  Usage usage{"run", "SCENE [options]",
-              "Runs a scene and writes history.csv, frames.pvd with frames/ (if the scene asks for frames),\n"
-              "resolved.json and run.json to a folder: out/<scene name> unless --out says otherwise.",
-              "SCENE",
-              "  talus run scenes/incline.json --set /time/end=3 --out out/incline-3s\n"
-              "  talus run scenes/brick_wall.json --threads 2 --overwrite\n"};
+  Usage usage{
+      "run", "SCENE [options]",
+      "Runs a scene and writes history.csv, energy.csv, frames.pvd with frames/ (if the scene asks for\n"
+      "frames), resolved.json, run.json and report.html to a folder: out/<scene name> unless --out says\n"
+      "otherwise.",
+      "SCENE",
+      "  talus run scenes/incline.json --set /time/end=3 --out out/incline-3s\n"
+      "  talus run scenes/brick_wall.json --threads 2 --overwrite\n"};
   usage.options.add_options()("out", po::value<std::string>()->value_name("DIR"),
                               "folder for the results (default: out/<scene name>)")(
       "overwrite", "replace results that the folder holds already")(

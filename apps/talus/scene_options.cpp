@@ -1,6 +1,7 @@
 #include "scene_options.hpp"
 
 #include "output/whole_file.hpp"
+#include "terminal.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -78,7 +79,7 @@ std::filesystem::path here_or_shipped(const std::filesystem::path& named) {
   if (named.empty() || named.is_absolute() || std::filesystem::exists(named)) return named;
   std::filesystem::path shipped = installation_prefix() / "share" / "talus" / named;
   if (!std::filesystem::is_regular_file(shipped)) return named;
-  fmt::print(stderr, "there is no {} here: taking {}\n", named.string(), shipped.string());
+  tell(fmt::format("there is no {} here: taking {}\n", named.string(), shipped.string()));
   return shipped;
 }
 

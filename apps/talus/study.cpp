@@ -36,7 +36,7 @@ int study_command(const Words& words) {
   const StudyPlan plan = plan_of(usage, *given);
   const Study study = make_study(usage, *given, words, plan);
   if (study.interrupted) {
-    fmt::print(stderr, "interrupted; the same words go on with the study in {}\n", study.folder.string());
+    tell(fmt::format("interrupted; the same words go on with the study in {}\n", study.folder.string()));
     return exit_code::interrupted;
   }
   fmt::print("{}\nresults in {}\n", study_table(plan, study.runs, study.findings), study.folder.string());

@@ -20,13 +20,17 @@ bool coloured() {
 
 void print(std::string_view label, std::string_view colour, std::string_view words) {
   if (coloured()) {
-    fmt::print(stderr, "\033[{}m{}:\033[0m {}\n", colour, label, words);
+    tell(fmt::format("\033[{}m{}:\033[0m {}\n", colour, label, words));
   } else {
-    fmt::print(stderr, "{}: {}\n", label, words);
+    tell(fmt::format("{}: {}\n", label, words));
   }
 }
 
 }  // namespace
+
+void tell(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
 
 bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) == 1;

@@ -32,6 +32,7 @@ Json header_of(const Checkpoint& checkpoint) {
           {"reason", checkpoint.reason},
           {"scene_file", checkpoint.scene_file.string()},
           {"scene_text", checkpoint.scene_text},
+          {"files", checkpoint.files},
           {"set", overrides},
           {"allow_plugins", checkpoint.allow_plugins},
           {"plugin_folders", folders},
@@ -70,6 +71,7 @@ Checkpoint checkpoint_of(const Json& header, const std::string& file) {
   checkpoint.reason = header.at("reason");
   checkpoint.scene_file = header.at("scene_file").get<std::string>();
   checkpoint.scene_text = header.at("scene_text");
+  checkpoint.files = header.at("files").get<std::map<std::string, std::string>>();
   for (const Json& change : header.at("set")) checkpoint.overrides.push_back({change.at(0), change.at(1)});
   checkpoint.allow_plugins = header.at("allow_plugins");
   for (const Json& folder : header.at("plugin_folders"))

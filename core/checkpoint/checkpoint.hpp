@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@ struct Checkpoint {
 
   std::filesystem::path scene_file;  ///< absolute; files that the scene names are sought from there
   std::string scene_text;
+  std::map<std::string, std::string> files;  ///< Scene::files
   std::vector<Override> overrides;
   bool allow_plugins = false;
   std::vector<std::filesystem::path> plugin_folders;  ///< absolute

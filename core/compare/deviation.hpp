@@ -4,7 +4,6 @@
 #include "scene/scene.hpp"
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace talus {

@@ -1,6 +1,5 @@
 #include "model/lattice_places.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace talus {

@@ -2,7 +2,6 @@
 
 #include "model/strips.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace talus {

@@ -136,7 +136,8 @@ std::string run_record(const Scene& scene, const RunOrder& order, const RunResul
   if (result.end == RunEnd::stopped) record["trouble"] = result.trouble;
   record["t [s]"] = result.time;
   if (order.from != nullptr) record["continued [s]"] = order.checkpoints->run.continued;
-  record["scene"] = {{"file", scene.file}, {"title", scene.title}, {"xxh3_128", order.scene_hash}};
+  record["scene"] = {
+      {"file", scene.file}, {"title", scene.title}, {"xxh3_128", order.scene_hash}, {"files", scene.files}};
   record["plugins"] = libraries_json(scene);
   record["settings"] = settings_json(order, scene);
   record["machine"] = {{"processor", processor_name()}, {"cores", std::thread::hardware_concurrency()}};

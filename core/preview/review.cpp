@@ -42,6 +42,18 @@ void review_motion(const Scene& scene, std::vector<std::string>& raised) {
       "ground");
 }
 
+/// A scene of many bodies that nothing holds: a drawing whose base was forgotten.
+void review_hold(const Scene& scene, std::vector<std::string>& raised) {
+  const StageSettings settings = settings_of(scene);
+  const bool held = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                [](const SceneBody& body) { return body.fixed; }) ||
+                    std::any_of(settings.supports.begin(), settings.supports.end(),
+                                [](const Support& support) { return support.any(); }) ||
+                    !settings.prescribed.empty() || !settings.absorbing.empty();
+  if (held || scene.bodies.size() < 2 || (settings.gravity.x == 0 && settings.gravity.y == 0)) return;
+  raised.emplace_back("all bodies fall together: none is fixed, supported or driven");
+}
+
 void review_output(const Scene& scene, double dt, std::vector<std::string>& raised) {
   const OutputSettings& output = scene.output;
   if (scene.monitors.empty())
@@ -113,6 +125,7 @@ void review_discontinuities(const Scene& scene, std::vector<std::string>& raised
 std::vector<std::string> review(const Scene& scene, double dt) {
   std::vector<std::string> raised;
   review_motion(scene, raised);
+  review_hold(scene, raised);
   review_output(scene, dt, raised);
   review_sleep(scene, raised);
   review_use(scene, raised);

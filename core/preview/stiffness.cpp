@@ -2,7 +2,6 @@
 #include "scene/components.hpp"
 #include "scene/surfaces.hpp"
 
-#include <algorithm>
 #include <set>
 #include <span>
 #include <string_view>

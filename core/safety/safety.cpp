@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -77,12 +76,23 @@ class Reduction {
       judge(simulation, middle, result);
     } catch (const NumericalTrouble& trouble) {
       result.trouble = trouble.what();
-      result.collapsed = true;
+      result.collapsed = any_moved(simulation);
+      if (!result.collapsed)
+        throw NumericalTrouble(
+            fmt::format("with strength divided by {:.4g} nothing moved, but {}", factor, trouble.what()));
     }
     return result;
   }
 
  private:
+  bool any_moved(const Simulation& simulation) const {
+    const Instant now = instant_of(simulation);
+    for (std::size_t i = 0; i < now.moved.size(); ++i) {
+      if (!scene_.bodies[i].fixed && !(now.moved[i] <= seen * simulation.body_width(i))) return true;
+    }
+    return false;
+  }
+
   void judge(const Simulation& simulation, const Instant& middle, ReducedRun& result) const {
     const Instant end = instant_of(simulation);
     for (std::size_t i = 0; i < end.moved.size(); ++i) {

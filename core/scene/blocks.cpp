@@ -103,6 +103,7 @@ class Expander {
       const std::vector<Block> blocks = cut(section, domain, joints, smallest_area, smallest_share);
       for (std::size_t i = 0; i < blocks.size(); ++i)
         bodies_.push_back(body_of(blocks[i], fmt::format("{}_{}", name, i + 1), joints.surfaces, written));
+      result.files.merge(joints.files);
       result.warnings.insert(result.warnings.end(), joints.warnings.begin(), joints.warnings.end());
       if (blocks.size() == 1) {
         result.warnings.push_back(fmt::format(

@@ -2,6 +2,7 @@
 
 #include "scene/reading.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ struct Generated {
 
 struct Expansion {
   std::vector<Generated> generated;
-  std::vector<std::string> unmade;    ///< names of generators that made nothing, for a mistake
-  std::vector<std::string> warnings;  ///< e.g. entities of a drawing that were passed over
+  std::vector<std::string> unmade;           ///< names of generators that made nothing, for a mistake
+  std::map<std::string, std::string> files;  ///< Scene::files
+  std::vector<std::string> warnings;         ///< e.g. entities of a drawing that were passed over
 
   /// Where the scene as it is written has what the expanded one has at `pointer`.
   std::string origin_of(const std::string& pointer) const;

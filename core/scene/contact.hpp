@@ -2,7 +2,6 @@
 
 #include "scene/reading.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace talus {

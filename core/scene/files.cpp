@@ -1,5 +1,7 @@
 #include "scene/files.hpp"
 
+#include "output/hash.hpp"
+
 #include <system_error>
 
 namespace talus {
@@ -21,6 +23,10 @@ NamedFile named_file(const fs::path& folder, const std::string& written) {
 bool is_file(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored);
+}
+
+void note_file(std::map<std::string, std::string>& files, const fs::path& file) {
+  files[fs::absolute(file).lexically_normal().string()] = hash_of_file(file);
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace talus {
@@ -16,5 +17,8 @@ NamedFile named_file(const std::filesystem::path& folder, const std::string& wri
 
 /// Whether it is an ordinary file. A device would not end, a pipe not begin.
 bool is_file(const std::filesystem::path& file);
+
+/// Notes a file that was read, by its absolute path, with its XXH3-128.
+void note_file(std::map<std::string, std::string>& files, const std::filesystem::path& file);
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include "scene/section.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct Joints {
   std::uint64_t split_seed = 0;
   std::vector<std::string> surfaces{""};  ///< names by number
   std::vector<std::string> warnings;
+  std::map<std::string, std::string> files;  ///< Scene::files
 
   std::uint32_t number_of(const std::string& surface);
 };

@@ -62,6 +62,7 @@ bool read_mesh_shape(Reading& reading, Section& body, Shape& shape) {
   }
   try {
     take_mesh(read_gmsh(named.file, named.part), shape);
+    note_file(reading.scene.files, named.file);
   } catch (const std::runtime_error& failure) {  // InputError or std::system_error
     reading.mistakes.add(pointer, failure.what());
     return false;

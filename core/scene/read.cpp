@@ -92,11 +92,13 @@ ReadText read_text(const std::string& text, const std::string& name, Registry& r
     expansion = expand_blocks(parsed.value, reading.folder, options.most_blocks, mistakes);
   reading.unmade = expansion.unmade;
   reading.scene.warnings = expansion.warnings;
+  reading.scene.files = expansion.files;
   const ReadAgain read_again = [&](const Json& scene, Mistakes& mistakes_again) {
     Reading again{registry, mistakes_again, reading.folder};
     again.unmade = expansion.unmade;
     Section root(&scene, "", mistakes_again);
     read_sections(again, root, options.allow_plugins);
+    reading.scene.files.insert(again.scene.files.begin(), again.scene.files.end());
     return Reread{std::move(again.scene), std::move(root.resolved)};
   };
   Section root(&parsed.value, "", mistakes);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -216,8 +217,9 @@ struct Scene {
   Limits limits;
   std::vector<Tolerance> tolerances;
   std::vector<std::string>
-      warnings;          ///< what a reviewer would raise, e.g. cohesion given to a law that reads none
-  std::string resolved;  ///< the scene as JSON text with every default spelled out
+      warnings;  ///< what a reviewer would raise, e.g. cohesion given to a law that reads none
+  std::map<std::string, std::string> files;  ///< what else was read, by path: XXH3-128
+  std::string resolved;                      ///< the scene as JSON text with every default spelled out
 };
 
 /// What a stage may change, as it is at the start.

@@ -76,6 +76,7 @@ std::optional<Table> take_file(Reading& reading, const std::string& written, con
     reading.mistakes.add(pointer, problem);
     return std::nullopt;
   }
+  note_file(reading.scene.files, named.file);
   if (too_many(reading, columns->at.size(), pointer)) return std::nullopt;
   return Table(std::move(columns->at), std::move(columns->value));
 }

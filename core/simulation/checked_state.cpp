@@ -25,10 +25,8 @@ std::string Simulation::State::place(std::uint32_t body) const {
                      scene.origin.y + centre.y + u.y);
 }
 
-/// Before contacts are evaluated with it: the law's fault is still what led here.
 void Simulation::State::check_numbers() const {
   if (std::isfinite(speeds.largest)) return;
-  if (contacts.law() != nullptr) check_law();
   throw NumericalTrouble(
       fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
                   "take a smaller time step",
@@ -55,7 +53,6 @@ void Simulation::State::check_shapes() const {
   }
 }
 
-/// At output times, and where something is no number.
 void Simulation::State::check_law() const {
   const LawFault& fault = contacts.fault();
   if (fault.found.empty()) return;
@@ -67,6 +64,22 @@ void Simulation::State::check_law() const {
                   "opposite and leave no "
                   "moment, written at the corners of the pairs it is given; mend the law or choose another",
                   law.file.string(), law.component->name, fault.found, where, time));
+}
+
+/// Elements of several materials may be in one sum: the names of all are as near as it goes.
+void Simulation::State::check_materials() const {
+  if (std::isfinite(strain_energy.stored + strain_energy.dissipated)) return;
+  std::string names;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    if (model.material_element_start[m] == model.material_element_start[m + 1]) continue;
+    const RegisteredComponent& component = *scene.materials[m].model.component;
+    names += fmt::format("{}'{}' of {}", names.empty() ? "" : ", ", component.component->name,
+                         component.file.string());
+  }
+  throw NumericalTrouble(fmt::format(
+      "the strain energy is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
+      "take a smaller time step, or mend the material: {}",
+      time, plan.dt, critical.dt, names));
 }
 
 void Simulation::State::check_step() const {

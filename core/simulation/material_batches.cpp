@@ -1,9 +1,34 @@
 #include "simulation/material_batches.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace talus {
+namespace {
+
+/// The time step is voted by them.
+void refuse_unsound(const Material& material, const RegisteredComponent& component) {
+  std::array<double, 9> tangent{};
+  material.stiffest_tangent(tangent.data());
+  const auto refuse = [&](const char* what, double found, const char* wanted) {
+    throw PluginError(fmt::format("{}: material '{}' gave {} as {}; wanted {}; mend the material",
+                                  component.file.string(), component.component->name, found, what, wanted));
+  };
+  for (std::size_t i = 0; i < tangent.size(); ++i) {
+    const bool on_diagonal = i % 4 == 0;
+    if (std::isfinite(tangent[i]) && (!on_diagonal || tangent[i] > 0)) continue;
+    refuse("an entry of its stiffest tangent", tangent[i], "finite numbers, above 0 on the diagonal");
+  }
+  const double viscous_time = material.viscous_time();
+  if (!(std::isfinite(viscous_time) && viscous_time >= 0))
+    refuse("its viscous time", viscous_time, "a finite number from 0 on");
+}
+
+}  // namespace
 
 MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
   const std::size_t count = model.elements.size();
@@ -16,6 +41,7 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     if (begin == end) continue;
     const Choice& choice = scene.materials[m].model;
     auto material = make<Material>(*choice.component, choice.values);
+    refuse_unsound(*material, *choice.component);
     const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
     const bool needs_previous = material->needs_previous_deformation();
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;

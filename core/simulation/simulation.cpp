@@ -11,7 +11,9 @@
 
 namespace talus {
 Simulation::Simulation(Scene scene, const RunSettings& settings)
-    : state_(std::make_unique<State>(std::move(scene), settings)) {}
+    : state_(std::make_unique<State>(std::move(scene), settings)) {
+  state_->refuse_uncountable_steps();
+}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
@@ -70,6 +72,12 @@ bool Simulation::settle(const Pause& pause) {
     s.step(s.scene.settle->duration);
     if (pause && pause()) return false;
   }
+  if (s.scene.settle->until && !s.settled()) {
+    s.summary.warnings.push_back(fmt::format(
+        "settling ended with its duration, {:.6g} s, at an unbalanced share of {:.3g}, not below {:.3g} as "
+        "/settle/until asks: what is left of the motion goes into the run",
+        s.scene.settle->duration, s.unbalanced_share, *s.scene.settle->until));
+  }
   s.settling = false;
   s.settle_over = true;
   s.motion.stop();
@@ -114,8 +122,9 @@ bool Simulation::advance(const Pause& pause) {
   return true;
 }
 
-void Simulation::look_now() {
+bool Simulation::look_now() {
   state_->bring_rotation_up_to_date();
+  return state_->observed;
 }
 
 double Simulation::time() const {

@@ -145,8 +145,9 @@ class Simulation {
   bool advance(const Pause& pause = {});
 
   /// After advance() was left off: makes motions of the present time fit to be looked at. The way there is no
-  /// longer the same to the last bit.
-  void look_now();
+  /// longer the same to the last bit. False where the last step was not made to be looked at: velocities at
+  /// t_n, stresses and contacts are then those of an earlier one.
+  bool look_now();
 
   double time() const;                    ///< s
   bool history_due() const;               ///< whether this is an output time of the history

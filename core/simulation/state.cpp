@@ -131,6 +131,7 @@ void Simulation::State::forces() {
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
                                            at_time, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
+  check_materials();
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
   Sleep::Taken taken{};
   if (may_sleep_now) {
@@ -164,10 +165,8 @@ double Simulation::State::evaluate_contacts() {
     sleep->wake(contacts.touched(), time, sleeping_parts());
     contact_totals.stored += sleep->contact_energy();
   }
-  if (observed) {
-    check_shapes();
-    check_law();
-  }
+  if (plan.done == 0) check_shapes();  // not where a checkpoint happens to be due
+  check_law();
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;
   return work;
@@ -240,6 +239,18 @@ void Simulation::State::vote_again() {
 double Simulation::State::allowed_dt() const {
   return speeds.relative > 0 ? speed_share * model.smallest_width / speeds.relative
                              : std::numeric_limits<double>::infinity();
+}
+
+/// What cannot be run is refused before anything is written.
+void Simulation::State::refuse_uncountable_steps() const {
+  const double dt = scene.time.dt ? *scene.time.dt : automatic_step(votes.anyhow(), scene.time.safety);
+  const double interval = std::min(scene.output.history, scene.time.end);
+  if (interval / dt <= countable_steps) return;
+  throw InputError(fmt::format(
+      "{} of {:.3g} s makes {:.3g} steps to the first output at {:.6g} s, more than any run can do: expected "
+      "at "
+      "most {:.0e}",
+      scene.time.dt ? "/time/dt" : "the automatic step", dt, interval / dt, interval, countable_steps));
 }
 
 /// At each output time, so nothing is put into words here.

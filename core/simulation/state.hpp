@@ -95,6 +95,7 @@ struct Simulation::State {
   void vote_again();
   double nominal_dt() const;
   double allowed_dt() const;
+  void refuse_uncountable_steps() const;
 
   void forces();
   bool forces_first(const Damping& how) const;
@@ -110,6 +111,7 @@ struct Simulation::State {
   void check_numbers() const;
   void check_shapes() const;
   void check_law() const;
+  void check_materials() const;
   void check_step() const;
   void check_balance();
   void warn_of_large_step();

@@ -1,5 +1,6 @@
 #include "study/study.hpp"
 
+#include "output/hash.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
 #include "output/whole_file.hpp"
@@ -25,6 +26,16 @@ Json set_of(const std::vector<Override>& overrides) {
   return set;
 }
 
+/// Whether all files that a run read besides its scene are what they were.
+bool files_unchanged(const Json& scene) {
+  const Json files = scene.value("files", Json());
+  if (!files.is_object()) return false;
+  for (const auto& [file, hash] : files.items()) {
+    if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != hash) return false;
+  }
+  return true;
+}
+
 /// What the folder of a run tells, if it is the run that is asked for.
 StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
                 const std::string& scene_hash) {
@@ -32,9 +43,12 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
   run.folder = folder;
   if (!std::filesystem::exists(folder / "run.json")) return run;
   const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
-  if (!record.is_object() || record.value("talus", "") != TALUS_VERSION ||
-      record["scene"]["xxh3_128"] != scene_hash || record["settings"]["set"] != set_of(overrides) ||
-      record["end"] == "interrupted")
+  if (!record.is_object() || record.value("talus", Json()) != TALUS_VERSION) return run;
+  const Json scene = record.value("scene", Json::object()),
+             settings = record.value("settings", Json::object());
+  if (!scene.is_object() || !settings.is_object() || scene.value("xxh3_128", Json()) != scene_hash ||
+      settings.value("set", Json()) != set_of(overrides) || record.value("end", Json()) == "interrupted" ||
+      !files_unchanged(scene))
     return run;
   run.done = true;
   run.end = record["end"];

@@ -166,3 +166,29 @@ TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume
   CHECK_THAT(call.err, Contains("history.csv") && Contains("is not what the run left"));
   CHECK(call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "-1"}).code == 2);
 }
+
+TEST_CASE("resume and study see that a file which the scene reads has changed", "[apps][resume][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  scratch.write("shake.csv", "0,1\n60,1\n");
+  const std::vector<std::string> shaken{"--set", R"(/base_acceleration=[{"time": "shake.csv"}, 0])"};
+  std::vector<std::string> words = run_words("broken", shaken);
+  words.insert(words.end(), {"--wall-time", "0"});
+  REQUIRE(call_talus(scratch.folder(), words).code == 130);
+  const std::vector<std::string> study{"study",   "small.json", "--quiet", "--vary", "/time/dt=2e-4,1e-4",
+                                       shaken[0], shaken[1]};
+  REQUIRE(call_talus(scratch.folder(), study).code == 0);
+  const std::filesystem::path first = scratch / "out/small-study/run_0001/run.json";
+  const auto hash_before = json_of(first)["state_hash"];
+  CHECK(json_of(first)["scene"]["files"].size() == 1);
+
+  scratch.write("shake.csv", "0,-1\n60,-1\n");
+  const Call resumed = call_talus(scratch.folder(), {"resume", "broken"});
+  CHECK(resumed.code == 2);
+  CHECK_THAT(resumed.err, Contains("shake.csv' changed"));
+  REQUIRE(call_talus(scratch.folder(), study).code == 0);
+  CHECK(json_of(first)["state_hash"] != hash_before);
+
+  write_whole_file(first, R"({"talus": "0.1.0", "scene": {}})");
+  CHECK(call_talus(scratch.folder(), study).code == 0);
+}

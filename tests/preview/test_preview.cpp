@@ -112,6 +112,10 @@ TEST_CASE("A reviewer asks about scenes in which nothing moves or nothing is see
   WorkingScene fixed = resting();
   fixed.bodies = box("top", 0, 0, 1, 1, R"("fixed": true)");
   CHECK(warned(fixed, "every body is fixed"));
+  WorkingScene falling = resting();
+  CHECK_FALSE(warned(falling, "fall together"));
+  falling.bodies = box("left", 0, 0, 1, 1) + "," + box("right", 2, 0, 3, 1);
+  CHECK(warned(falling, "all bodies fall together"));
 }
 
 TEST_CASE("A reviewer asks about intervals that do not fit", "[preview]") {
