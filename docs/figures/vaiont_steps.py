@@ -147,7 +147,7 @@ def draw(runs):
     plot.curve(times, speeds(paper), INK, 2.0, "6 4")
     entries = [(f"{PAPER} s, the paper's", INK, "6 4", 2)]
     entries += [(f"{name} s", color, None, 2) for name, color in zip(names, colors.values())]
-    for i, (name, color, dash, width) in enumerate(entries + [("auto, changed by 0.2 to 0.5 %", FAINT, None, 4)]):
+    for i, (name, color, dash, width) in enumerate(entries + [("auto, changed by 0.4 to 0.7 %", FAINT, None, 4)]):
         d.line(590, 100 + 18 * i, 616, 100 + 18 * i, color, width, dash)
         d.text(624, 104 + 18 * i, name, 12, SOFT)
 
