@@ -97,7 +97,7 @@ Usage usage_of_compare() {
   add_scene_options(usage);
   add_log_options(usage);
   usage.options.add_options()("no-report", "write no report.html")("quiet,q", "no progress")(
-      "no-skin", "seek contact candidates anew at every step: slow, for checking; the bits stay the same");
+      "no-skin", "seek contact candidates anew at every step: slow, for checking; motion keeps its bits");
   return usage;
 }
 

@@ -51,7 +51,7 @@ Usage usage_of_run() {
   add_scene_options(usage);
   add_running_options(usage);
   usage.options.add_options()(
-      "no-skin", "seek contact candidates anew at every step: slow, for checking; the bits stay the same");
+      "no-skin", "seek contact candidates anew at every step: slow, for checking; motion keeps its bits");
   return usage;
 }
 

@@ -112,7 +112,11 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
   std::vector<Block> blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
   for (Block& block : blocks) orient(block);
   name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
-  for (Block& block : blocks) drop_idle_vertices(block, tolerance);
+  for (Block& block : blocks) {
+    drop_idle_vertices(block, tolerance);
+    if (std::abs(area_of(block.loops) - block.area) > lost * size * size)
+      throw std::runtime_error("a block loses its shape where vertices all but coincide: move lines apart");
+  }
   sort_blocks(blocks, 1e-9 * size);
   if (order.split_share == 0) return blocks;
   split_quadrilaterals(blocks, order.split_share, order.split_seed, smallest);

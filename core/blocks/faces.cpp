@@ -32,9 +32,31 @@ Moments moments_of(const Ring& ring, Vec2 about) {
   return sum;
 }
 
-/// Whether the vertex may go: it is the one before, or lies on the way from there to the next.
+struct Outline {
+  Ring ring;
+  std::vector<std::uint32_t> surfaces;  ///< [edge]
+};
+
+/// Of vertices at one place, also where the ring closes, one alone, with the edge that leaves them.
+Outline without_repeated(const Outline& all, double tolerance) {
+  Outline kept;
+  for (std::size_t i = 0; i < all.ring.size(); ++i) {
+    if (kept.ring.empty() || distance(kept.ring.back(), all.ring[i]) > tolerance) {
+      kept.ring.push_back(all.ring[i]);
+      kept.surfaces.push_back(all.surfaces[i]);
+    } else {
+      kept.surfaces.back() = all.surfaces[i];
+    }
+  }
+  while (kept.ring.size() > 1 && distance(kept.ring.back(), kept.ring.front()) <= tolerance) {
+    kept.ring.pop_back();
+    kept.surfaces.pop_back();
+  }
+  return kept;
+}
+
+/// Whether the vertex lies on the way from the one before to the next.
 bool is_idle(Vec2 before, Vec2 at, Vec2 after, double tolerance) {
-  if (distance(before, at) <= tolerance) return true;
   const double dx = after.x - before.x, dy = after.y - before.y, length = std::hypot(dx, dy);
   if (length <= tolerance) return false;
   const double off = ((at.x - before.x) * dy - (at.y - before.y) * dx) / length;
@@ -85,25 +107,20 @@ void sort_blocks(std::vector<Block>& blocks, double same) {
 
 void drop_idle_vertices(Block& block, double tolerance) {
   for (std::size_t loop = 0; loop < block.loops.size(); ++loop) {
-    Ring& ring = block.loops[loop];
-    std::vector<std::uint32_t>& surfaces = block.edge_surface[loop];
-    Ring kept;
-    std::vector<std::uint32_t> kept_surfaces;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::size_t next = (i + 1) % ring.size(), last = (i + ring.size() - 1) % ring.size();
-      const Vec2 before = kept.empty() ? ring[last] : kept.back();
-      const std::uint32_t arriving = kept.empty() ? surfaces[last] : kept_surfaces.back();
-      const bool repeated = distance(before, ring[i]) <= tolerance;
-      if ((repeated || arriving == surfaces[i]) && is_idle(before, ring[i], ring[next], tolerance)) {
-        if (repeated && !kept.empty()) kept_surfaces.back() = surfaces[i];
-        continue;
-      }
-      kept.push_back(ring[i]);
-      kept_surfaces.push_back(surfaces[i]);
+    const Outline apart = without_repeated({block.loops[loop], block.edge_surface[loop]}, tolerance);
+    Outline kept;
+    for (std::size_t i = 0; i < apart.ring.size(); ++i) {
+      const bool first = kept.ring.empty(), last = i + 1 == apart.ring.size();
+      const Vec2 before = first ? apart.ring.back() : kept.ring.back();
+      const Vec2 after = !last ? apart.ring[i + 1] : first ? apart.ring[0] : kept.ring[0];
+      const std::uint32_t arriving = first ? apart.surfaces.back() : kept.surfaces.back();
+      if (arriving == apart.surfaces[i] && is_idle(before, apart.ring[i], after, tolerance)) continue;
+      kept.ring.push_back(apart.ring[i]);
+      kept.surfaces.push_back(apart.surfaces[i]);
     }
-    if (kept.size() < 3) continue;
-    ring = std::move(kept);
-    surfaces = std::move(kept_surfaces);
+    if (kept.ring.size() < 3) continue;
+    block.loops[loop] = std::move(kept.ring);
+    block.edge_surface[loop] = std::move(kept.surfaces);
   }
 }
 

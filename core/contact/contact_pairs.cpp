@@ -47,17 +47,21 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   return due;
 }
 
-/// A bond may span any gap: pairs in contact stay candidates however far apart their bodies are.
+/// A bond may span any gap: two bodies in contact stay a pair, however far apart they are. As long as pieces
+/// of them are near, those are their contact.
 void ContactStage::keep_touching() {
+  const auto bodies_of = [](const Candidate& candidate) {
+    return std::pair{candidate.body_a, candidate.body_b};
+  };
   const std::size_t found = candidates_.size();
   std::size_t k = 0;
   for (const BodyPair& pair : pairs_) {
     if (pair.contact_count == 0) continue;
-    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-      const Candidate touching{pair.a, pair.b, piece_pairs_[p].a, piece_pairs_[p].b};
-      while (k < found && candidates_[k] < touching) ++k;
-      if (k == found || candidates_[k] != touching) append_to(candidates_, touching);
-    }
+    const std::pair wanted{pair.a, pair.b};
+    while (k < found && bodies_of(candidates_[k]) < wanted) ++k;
+    if (k < found && bodies_of(candidates_[k]) == wanted) continue;
+    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p)
+      append_to(candidates_, {pair.a, pair.b, piece_pairs_[p].a, piece_pairs_[p].b});
   }
   const auto first = candidates_.begin();
   std::inplace_merge(first, first + static_cast<std::ptrdiff_t>(found), candidates_.end());

@@ -153,8 +153,10 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
     const Wave now = wave(number);
     ask(model, motion, conditions, now, gone, true, close_batch);
     while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
-      fault_ = runaway_of(now);
-      if (!fault_.found.empty()) return;
+      if (const LawFault found = runaway_of(now); !found.found.empty()) {
+        fault_ = found;
+        return;
+      }
       make_room();
       ask(model, motion, conditions, now, no_way, false, close_batch);
     }

@@ -124,7 +124,7 @@ bool Simulation::advance(const Pause& pause) {
 
 bool Simulation::look_now() {
   state_->bring_rotation_up_to_date();
-  return state_->observed;
+  return state_->to_be_seen;
 }
 
 double Simulation::time() const {

@@ -97,6 +97,7 @@ void Simulation::State::begin(double end) {
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
+  to_be_seen = false;
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
   motion.clear_forces(model);
@@ -142,6 +143,7 @@ void Simulation::State::forces() {
   if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop();
   profile.enter(Phase::checks);
   fresh = false;
+  to_be_seen = observed;
 }
 
 /// Islands go to sleep in steps as long as the one before, of which velocities at t_n are kept.

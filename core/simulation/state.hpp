@@ -48,6 +48,7 @@ struct Simulation::State {
   bool settle_over = false;  ///< there is nothing left of the settle stage
   bool fresh = true;         ///< no contact has been evaluated yet
   bool observed = true;      ///< somebody may look at t_n
+  bool to_be_seen = false;   ///< t_n was observed, and all of it is there
   bool started = false;      ///< t = 0 has been reached
   bool watched = false;      ///< the coming step is the last before the state is looked at
   std::uint64_t output = 0;  ///< number of the output time reached last

@@ -227,3 +227,20 @@ TEST_CASE("a joint that lies on an edge of the domain but for rounding loses no 
     }
   }
 }
+
+TEST_CASE("vertices that all but coincide where a ring closes cost no corner", "[blocks]") {
+  for (const auto& [first, second] : {std::pair("45, \"spacing\": 25", "30, \"spacing\": 22.5"),
+                                      std::pair("45, \"spacing\": 20", "-45, \"spacing\": 18")}) {
+    CAPTURE(first, second);
+    const auto bodies = made(fmt::format(R"("joint_sets": [{{"dip": {}}}, {{"dip": {}}}])", first, second),
+                             "[[0, 0], [100, 0], [100, 100], [0, 100]]");
+    CHECK(area_sum(bodies) == Approx(1e4).epsilon(1e-9));
+    for (const SceneBody& body : bodies) {
+      const Ring& ring = body.outer.vertices;
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+        CHECK(std::hypot(b.x - a.x, b.y - a.y) > 1e-9);
+      }
+    }
+  }
+}
