@@ -104,6 +104,11 @@ struct LaneGroup {
   }
 
  private:
+  /// Bytes of loads for each double of corners, which LaneRows::row counts.
+  static constexpr std::size_t doubles_of_corner = sizeof(BoundaryCorner) / sizeof(double);
+  static constexpr std::size_t bytes_of_row = sizeof(CornerLoad) / doubles_of_corner;
+  static_assert(bytes_of_row * doubles_of_corner == sizeof(CornerLoad));
+
   void place(const ContactBatch& batch, const TouchingPair& touching, int lane) {
     const BodyPair& at = batch.pairs[touching.pair];
     const bool swap = at.master_share == 0;
@@ -145,22 +150,20 @@ struct LaneGroup {
   template <int sides>
   void write_alike(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* corner) const {
     CornerLoad beside[sides];
-    const auto place_of = [](const CornerLoad* first, std::ptrdiff_t shift) {
-      return reinterpret_cast<std::uintptr_t>(first) +
-             static_cast<std::uintptr_t>(shift) * sizeof(CornerLoad);
+    const auto place_of = [](CornerLoad* first, std::ptrdiff_t shift) {
+      return reinterpret_cast<char*>(first) + shift * static_cast<std::ptrdiff_t>(sizeof(CornerLoad));
     };
-    std::uintptr_t from[lanes];  // where the load of the host's first corner would be
+    char* from[lanes];  // where the load of the host's first corner would be
     for (int lane = 0; lane < lanes; ++lane) from[lane] = place_of(loads.corner, load_shift[p][lane]);
     if (wanted != all_lanes) {
       each_lane(all_lanes & ~wanted, [&](int lane) {
         from[lane] = place_of(beside, -static_cast<std::ptrdiff_t>(rows[p].first[lane]));
       });
     }
-    constexpr std::uintptr_t bytes_per_double = sizeof(CornerLoad) * sizeof(double) / sizeof(BoundaryCorner);
     for (int i = 0; i < sides; ++i) {
       double* to[lanes];
       for (int lane = 0; lane < lanes; ++lane)
-        to[lane] = reinterpret_cast<double*>(from[lane] + rows[p].row[i][lane] * bytes_per_double);
+        to[lane] = reinterpret_cast<double*>(from[lane] + std::size_t{rows[p].row[i][lane]} * bytes_of_row);
       simd::scatter_points(corner[i].load, to);
     }
   }
@@ -187,8 +190,6 @@ struct LaneGroup {
     });
   }
 };
-static_assert(sizeof(CornerLoad) * sizeof(double) % sizeof(BoundaryCorner) == 0);
-
 /// What a law reads of the interfaces of a group.
 struct LaneParameters {
   Pack normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping;
