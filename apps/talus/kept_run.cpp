@@ -51,8 +51,7 @@ void check_files(const Checkpoint& checkpoint, const Scene& scene) {
   }
   throw InputError(
       fmt::format("what the scene '{}' reads is no longer what the run was started with: {} changed; restore "
-                  "it, or run the "
-                  "scene anew",
+                  "it, or run the scene anew",
                   checkpoint.scene_file.string(), changed));
 }
 

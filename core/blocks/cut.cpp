@@ -91,8 +91,7 @@ std::vector<Block> faces_of(const CutOrder& order, double size, const Geos& geos
   }
   throw std::runtime_error(
       "the lines cannot be cut into faces that fill the domain: some of them nearly coincide; move them "
-      "apart "
-      "or onto each other");
+      "apart or onto each other");
 }
 
 }  // namespace
