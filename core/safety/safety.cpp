@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -76,23 +77,12 @@ class Reduction {
       judge(simulation, middle, result);
     } catch (const NumericalTrouble& trouble) {
       result.trouble = trouble.what();
-      result.collapsed = any_moved(simulation);
-      if (!result.collapsed)
-        throw NumericalTrouble(
-            fmt::format("with strength divided by {:.4g} nothing moved, but {}", factor, trouble.what()));
+      result.collapsed = true;
     }
     return result;
   }
 
  private:
-  bool any_moved(const Simulation& simulation) const {
-    const Instant now = instant_of(simulation);
-    for (std::size_t i = 0; i < now.moved.size(); ++i) {
-      if (!scene_.bodies[i].fixed && !(now.moved[i] <= seen * simulation.body_width(i))) return true;
-    }
-    return false;
-  }
-
   void judge(const Simulation& simulation, const Instant& middle, ReducedRun& result) const {
     const Instant end = instant_of(simulation);
     for (std::size_t i = 0; i < end.moved.size(); ++i) {
@@ -167,6 +157,12 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
       next = run->collapsed ? next / stride : next * stride;
       if (next < settings.lowest || next > settings.highest) break;
     }
+  }
+  const auto stopped = [](const ReducedRun& run) { return !run.trouble.empty(); };
+  if (!safety.interrupted && !safety.stands && std::ranges::all_of(safety.runs, stopped)) {
+    throw NumericalTrouble(
+        fmt::format("runs are stopped however strong the scene is, which says nothing of its safety: {}",
+                    safety.runs.back().trouble));
   }
   return safety;
 }

@@ -250,8 +250,7 @@ void Simulation::State::refuse_uncountable_steps() const {
   if (interval / dt <= countable_steps) return;
   throw InputError(fmt::format(
       "{} of {:.3g} s makes {:.3g} steps to the first output at {:.6g} s, more than any run can do: expected "
-      "at "
-      "most {:.0e}",
+      "at most {:.0e}",
       scene.time.dt ? "/time/dt" : "the automatic step", dt, interval / dt, interval, countable_steps));
 }
 

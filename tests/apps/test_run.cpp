@@ -326,3 +326,15 @@ TEST_CASE("a log level keeps the rest from stderr, and a warning is told once", 
   CHECK_THAT(call_talus(scratch.folder(), {"resume", "out/small", "--log-format", "xml"}).err,
              Contains("--log-format xml: allowed are text, json"));
 }
+
+TEST_CASE("what cannot be run removes no results", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--quiet", "--out", "kept"}).code == 0);
+  const std::string before = read_whole_file(scratch / "kept/history.csv");
+  const Call call = call_talus(scratch.folder(), {"run", "small.json", "--quiet", "--out", "kept",
+                                                  "--overwrite", "--set", "/time/dt=1e-300"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("/time/dt of 1e-300 s makes"));
+  CHECK(read_whole_file(scratch / "kept/history.csv") == before);
+}

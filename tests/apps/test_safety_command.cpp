@@ -86,3 +86,11 @@ TEST_CASE("talus safety overwrites nothing unasked, and refuses tolerances that 
     CHECK_THAT(call.err, Contains("allowed are 1e-6 to less than 1"));
   }
 }
+
+TEST_CASE("talus safety does not take trouble at any strength for a collapse", "[apps][safety]") {
+  const Scratch scratch;
+  const Call call = call_talus(
+      scratch.folder(), {"safety", TALUS_SCENES "/column.json", "--set", "/time/dt=2e-4", "--out", "column"});
+  CHECK(call.code == 4);
+  CHECK_THAT(call.err, Contains("however strong the scene is") && Contains("the step"));
+}
