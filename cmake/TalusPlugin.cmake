@@ -8,11 +8,12 @@ set(talus_simd_levels)
 if(TALUS_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(talus_simd_levels avx2 avx512)
   set(talus_flags_avx2 -march=x86-64-v3)
-  # GCC copies packs of AVX2 by halves unless told, and what is stored so must be waited for when it is loaded whole.
+  set(talus_flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+  # GCC copies packs by halves unless told, and what is stored so must be waited for when it is loaded whole.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
     list(APPEND talus_flags_avx2 -mmove-max=256 -mstore-max=256)
+    list(APPEND talus_flags_avx512 -mmove-max=512 -mstore-max=512)
   endif()
-  set(talus_flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 endif()
 
 function(talus_add_plugin_library target name level)

@@ -14,9 +14,10 @@ inline namespace TALUS_SIMD_LEVEL {
 struct LaneSegment {
   LaneCorner* slave;            ///< where the side starts
   Pack start, end;              ///< along the slave side, 0 to 1
-  Pack start_lever, end_lever;  ///< along the master side, 0 to 1
   Pack start_depth, end_depth;  ///< m, (2d₁ + d₂)/6 and (d₁ + 2d₂)/6: how a linear load goes to both ends
-  Pack length, facing;          ///< m, along the slave; projected on the master side, where it faces that
+  Pack length;                  ///< m, along the slave
+  Pack start_lever, end_lever;  ///< along the master side, 0 to 1; for dashpots alone, as is the next
+  Pack facing;                  ///< m, projected on the master side, where it faces that
 };
 
 /// The cell of one master side.
@@ -53,7 +54,9 @@ class LaneCells {
 
   /// Finds the cells and what their pressure comes to; either all lanes are mixed or none.
   template <int master_sides, int slave_sides>
-  void find(LanePiece<corners>& master, LanePiece<corners>& slave, Pack stiffness, Pack clear_depth) {
+  void find(LanePiece<corners>& master, LanePiece<corners>& slave, Pack stiffness, Pack clear_depth,
+            bool damped) {
+    damped_ = damped;
     deep = simd::nowhere();
     stored = penetration = area = arc_length = pattern = 0.0;
     arc = force = {0.0, 0.0};
@@ -79,7 +82,11 @@ class LaneCells {
         const CornerBits here = meetings >> shift & all_lanes;
         meetings ^= here << shift;
         const Mask possible = simd::mask_of(static_cast<unsigned>(here));
-        const Heights heights{height_[k], height_[after], j + 1 == others ? 0 : j + 1};
+        const auto crossed = [&](int line) {
+          return (here & (some_right_[line] & ~all_right_[line]) >> shift) != 0;
+        };
+        const Heights heights{height_[k], height_[after], j + 1 == others ? 0 : j + 1, crossed(k),
+                              crossed(after)};
         cut_out(cell, slave, k, j, heights, possible, clear_depth, inverse_length, sum);
       }
       cell.end = next_segment_;
@@ -119,7 +126,8 @@ class LaneCells {
   /// Of the slave's corners over the lines of division at both ends of a master side.
   struct Heights {
     const Pack *left, *right;
-    int last;  ///< the corner at the end of the slave side at hand
+    int last;                          ///< the corner at the end of the slave side at hand
+    bool left_crossed, right_crossed;  ///< the side goes through the line, in a lane at least
   };
 
   /// Heights of the slave's corners over the line of division at each master corner, positive on the side of
@@ -161,20 +169,26 @@ class LaneCells {
     const LaneCorner& master = *cell.master;
     LaneCorner& side = slave.corner[j];
     const Pack first = depth_[j], last = depth_[heights.last];
-    const Pack left = heights.left[j], left_last = heights.left[heights.last];
-    const Pack right = heights.right[j], right_last = heights.right[heights.last];
-    const Pack surface = first / (first - last), before = left / (left - left_last),
-               after = right / (right - right_last);
-
+    const Pack surface = first / (first - last);
     Pack t0 = simd::select(first > 0.0, 0.0, surface), t1 = simd::select(last > 0.0, 1.0, surface);
-    const Mask enters_left = (left < 0.0) & (before >= t0);
-    t0 = simd::select(enters_left, before, t0);
-    const Mask enters_right = (right >= 0.0) & (after >= t0);
-    t0 = simd::select(enters_right, after, t0);
-    const Mask leaves_left = (left_last < 0.0) & (before <= t1);
-    t1 = simd::select(leaves_left, before, t1);
-    const Mask leaves_right = (right_last >= 0.0) & (after <= t1);
-    t1 = simd::select(leaves_right, after, t1);
+    Mask enters_left = simd::nowhere(), enters_right = enters_left, leaves_left = enters_left,
+         leaves_right = enters_left;
+    if (heights.left_crossed) {
+      const Pack left = heights.left[j], left_last = heights.left[heights.last];
+      const Pack before = left / (left - left_last);
+      enters_left = (left < 0.0) & (before >= t0);
+      t0 = simd::select(enters_left, before, t0);
+      leaves_left = (left_last < 0.0) & (before <= t1);
+      t1 = simd::select(leaves_left, before, t1);
+    }
+    if (heights.right_crossed) {
+      const Pack right = heights.right[j], right_last = heights.right[heights.last];
+      const Pack after = right / (right - right_last);
+      enters_right = (right >= 0.0) & (after >= t0);
+      t0 = simd::select(enters_right, after, t0);
+      leaves_right = (right_last >= 0.0) & (after <= t1);
+      t1 = simd::select(leaves_right, after, t1);
+    }
 
     Mask valid = possible & (t0 <= t1);
     if (!simd::any(valid)) return;
@@ -211,12 +225,14 @@ class LaneCells {
     at.slave = &side;
     at.start = t0;
     at.end = t1;
-    at.start_lever = s0 * inverse_length;
-    at.end_lever = s1 * inverse_length;
     at.start_depth = start_depth;
     at.end_depth = end_depth;
     at.length = part * side.length;
-    at.facing = simd::max(0.0, -run);
+    if (damped_) {
+      at.start_lever = s0 * inverse_length;
+      at.end_lever = s1 * inverse_length;
+      at.facing = simd::max(0.0, -run);
+    }
     arc = arc + part * span;
     arc_length = arc_length + at.length;
     penetration = simd::max(penetration, simd::max(d0, d1));
@@ -246,6 +262,7 @@ class LaneCells {
   LaneCell cell_[corners];
   LaneSegment segment_[corners * corners];  ///< cell after cell
   std::size_t cell_count_ = 0;
+  bool damped_ = false;
   LaneSegment* next_segment_ = segment_;
 };
 

@@ -219,8 +219,10 @@ class LaneContact {
     roles_ = g.averaged ? 2 : 1;
     Mask refused = piece_[0].degenerate | piece_[1].degenerate;
     const Pack stiffness = share * interface.normal_stiffness, clear_depth = simd::load(g.clear_depth);
-    cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, clear_depth);
-    if (g.averaged) cells_[1].template find<other_sides, sides>(piece_[1], piece_[0], stiffness, clear_depth);
+    const bool damped = simd::any(interface.normal_damping > 0.0);
+    cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, clear_depth, damped);
+    if (g.averaged)
+      cells_[1].template find<other_sides, sides>(piece_[1], piece_[0], stiffness, clear_depth, damped);
     for (int role = 0; role < roles_; ++role) {
       refused = refused | cells_[role].deep | !(cells_[role].area > 0.0);
     }
@@ -229,7 +231,7 @@ class LaneContact {
     report.stored = roles_ == 2 ? cells_[0].stored + cells_[1].stored : cells_[0].stored;
     report.penetration =
         roles_ == 2 ? simd::max(cells_[0].penetration, cells_[1].penetration) : cells_[0].penetration;
-    load_normally(g, interface, stiffness, share, batch.dt, report);
+    load_normally(g, interface, stiffness, share, batch.dt, damped, report);
     if constexpr (Law::frictional) friction<sides, other_sides>(g, interface, batch, report);
     const LaneBits unserved = simd::bits(refused) & g.live;
     write<sides, other_sides>(loads, g, report, g.live & ~unserved);
@@ -264,8 +266,8 @@ class LaneContact {
 
   /// Puts the pressure on both pieces, and a dashpot along the normal of each cell.
   void load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness, Pack share,
-                     double dt, Report& report) {
-    if (!simd::any(interface.normal_damping > 0.0)) {
+                     double dt, bool damped, Report& report) {
+    if (!damped) {
       each_cell([&](LaneCell& cell) { load_cell<false>(cell, stiffness, 0.0); });
       return;
     }
