@@ -1,10 +1,12 @@
 #include "figures/runs.hpp"
+#include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace talus;
 using namespace talus::figures;
@@ -68,4 +70,37 @@ TEST_CASE("Series compression: a stiffness ratio of 1e6 settles by the soft part
   const double expected = 2 * weight / 1e10 + weight / 1e10 + 1.5 * weight / 1e8;
   INFO(fmt::format("{:.6e} of {:.6e} m", -course.motion.back().displacement.y, expected));
   CHECK(-course.motion.back().displacement.y == Approx(expected).epsilon(0.005));
+}
+
+TEST_CASE("Two contacts of one pair keep their friction apart, however near they face each other",
+          "[figures][friction]") {
+  // A wedge is pressed into a notch of 45°, whose two faces are longer than they are apart, as one body and
+  // as two halves. Each face of 2.7 √2 m bears N (cos 45° + tan 30° sin 45°) of 1e6 N/m in all.
+  const auto sunk = [](const std::string& wedge) {
+    WorkingScene text;
+    text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                        "normal_damping": 0.3, "tangential_damping": 0.3)";
+    text.bodies = R"({"name": "n", "material": "rock", "fixed": true, "polygon": [[-9, -1], [9, -1], [9, 4],
+        [4, 4], [0, 0], [-4, 4], [-9, 4]]},)" +
+                  wedge;
+    text.time = R"({"end": 0.5, "safety": 0.05})";
+    text.rest = R"("damping": 50, "loads": [)";
+    const bool halves = wedge.find("\"r\"") != std::string::npos;
+    for (const std::string& name :
+         halves ? std::vector<std::string>{"l", "r"} : std::vector<std::string>{"w"})
+      text.rest += fmt::format(
+          R"({}{{"body": "{}", "point": [{}, 2], "force": [0, {{"scale": {}, "time": [[0, 0], [0.4, 1]]}}]}})",
+          name == "r" ? ", " : "", name, name == "l" ? -0.5 : 0.5, halves ? -5e5 : -1e6);
+    text.rest += "],";
+    return run_to_end(text).body_motion(1).displacement.y;
+  };
+  const double whole = sunk(R"({"name": "w", "material": "rock", "fix": ["rotation", "x"],
+      "polygon": [[-0.3, 0.3], [0.3, 0.3], [3, 3], [-3, 3]]})");
+  const double halves = sunk(R"({"name": "l", "material": "rock", "fix": ["rotation", "x"],
+      "polygon": [[-0.3, 0.3], [-0.001, 0.3], [-0.001, 3], [-3, 3]]},
+      {"name": "r", "material": "rock", "fix": ["rotation", "x"],
+      "polygon": [[0.001, 0.3], [0.3, 0.3], [3, 3], [0.001, 3]]})");
+  CHECK(whole == Approx(halves).epsilon(1e-3));
+  CHECK(whole ==
+        Approx(-1e6 / (2.7 * std::sqrt(2.0) * 1e9 * (1 + std::tan(std::numbers::pi / 6)))).epsilon(1e-3));
 }

@@ -3,6 +3,7 @@
 #include <talus/overlap/friction.hpp>
 #include <talus/overlap/grouping.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace talus::overlap {
@@ -26,33 +27,15 @@ class CarriedHistory {
              PairReport& report) {
     carried_.assign(report.contact_count, FrictionHistory{});
     name_strips(overlaps, report.contact_count);
-    spans_.clear();
     if (pair.contact_count == 0) return;
+    spans_.clear();
     for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(overlaps.span(g, batch.dt));
+    old_.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
-      if (carry_to_same_strips(old)) continue;
-      double total = 0;
-      const auto weight = [&](const GroupSpan& span) {
-        const bool same = length(span.centre - Point{old.x, old.y}) <= span.reach + old.contact_length / 2;
-        return same ? span.size : 0.0;
-      };
-      for (const GroupSpan& span : spans_) total += weight(span);
-      if (!(total > 0)) {
-        report.slip_loss += old.stored;
-        continue;
-      }
-      for (std::uint32_t g = 0; g < report.contact_count; ++g) {
-        const double share = weight(spans_[g]) / total;
-        if (share == 0) continue;
-        FrictionHistory& now = carried_[g];
-        now.elastic += share * old.elastic;
-        now.applied += share * old.applied;
-        now.stored += share * old.stored;
-        now.contact_length += share * old.contact_length;
-        now.slip = old.slip;
-      }
+      if (!carry_to_same_strips(old)) old_.push_back(old);
     }
+    for (std::uint32_t i = 0; i < old_.size(); ++i) carry_by_place(i, report);
   }
 
   FrictionHistory& operator[](std::uint32_t group) { return carried_[group]; }
@@ -64,6 +47,53 @@ class CarriedHistory {
       carried_[overlap.group].strips =
           name_of_strips(overlap.piece[0].first_corner(), overlap.piece[1].first_corner());
     }
+  }
+
+  void carry_by_place(std::uint32_t i, PairReport& report) {
+    const FrictionHistory& old = old_[i];
+    double total = 0;
+    for (std::uint32_t g = 0; g < spans_.size(); ++g) total += takes(g, i) ? spans_[g].size : 0;
+    if (!(total > 0)) {
+      report.slip_loss += old.stored;
+      return;
+    }
+    for (std::uint32_t g = 0; g < spans_.size(); ++g) {
+      if (!takes(g, i)) continue;
+      const double share = spans_[g].size / total;
+      FrictionHistory& now = carried_[g];
+      now.elastic += share * old.elastic;
+      now.applied += share * old.applied;
+      now.stored += share * old.stored;
+      now.contact_length += share * old.contact_length;
+      now.slip = old.slip;
+    }
+  }
+
+  /// Whether a contact takes over from one of before: the two are near enough, and neither has a nearer one
+  /// among those of the other time, unless one merged or split.
+  bool takes(std::uint32_t now, std::uint32_t old) const {
+    if (!could_be(now, old)) return false;
+    const double distance = apart(now, old);
+    bool nearest_now = true, nearest_old = true;
+    for (std::uint32_t g = 0; g < spans_.size(); ++g)
+      nearest_now = nearest_now && !(could_be(g, old) && apart(g, old) < distance);
+    for (std::uint32_t i = 0; i < old_.size(); ++i)
+      nearest_old = nearest_old && !(could_be(now, i) && apart(now, i) < distance);
+    return nearest_now || nearest_old;
+  }
+
+  /// Two contacts of a pair that lie side by side, or face each other, may be nearer than they are long: V of
+  /// the one is nothing to the other. Along its line, or off it by no more than some six degrees, lies what
+  /// was one with it.
+  bool could_be(std::uint32_t now, std::uint32_t old) const {
+    const GroupSpan& span = spans_[now];
+    const Point from = Point{old_[old].x, old_[old].y} - span.centre;
+    if (length(from) > span.reach + old_[old].contact_length / 2) return false;
+    if (spans_.size() == 1 && old_.size() == 1) return true;
+    return std::abs(cross(span.along, from)) <= span.across + 0.1 * std::abs(dot(span.along, from));
+  }
+  double apart(std::uint32_t now, std::uint32_t old) const {
+    return length(Point{old_[old].x, old_[old].y} - spans_[now].centre);
   }
 
   /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
@@ -84,6 +114,7 @@ class CarriedHistory {
 
   std::vector<FrictionHistory> carried_;
   std::vector<GroupSpan> spans_;
+  std::vector<FrictionHistory> old_;  ///< that the strips did not tell
 };
 
 }  // namespace talus::overlap

@@ -16,8 +16,10 @@ struct Overlap {
 /// Where a group of overlaps lies, to find it again one step later.
 struct GroupSpan {
   Point centre;
-  double size;   ///< m, a measure of its length
-  double reach;  ///< m, half its extent and what it can have moved in a step
+  double size;    ///< m, a measure of its length
+  double reach;   ///< m, half its extent and what it can have moved in a step
+  Point along;    ///< unit vector, where it is longest
+  double across;  ///< m, the most that it lies off the line along `along` through `centre`, and that motion
 };
 
 /// Finds the overlaps of a pair and which of them are one contact: a concave body is cut into convex pieces,
@@ -69,11 +71,34 @@ class OverlapGroups {
         for (std::uint32_t i = 0; i < piece.size(); ++i) speed = std::max(speed, length(piece.velocity(i)));
       }
     }
-    const double size = length(high - low);
-    return {0.5 * (low + high), size, size / 2 + 2 * speed * dt};
+    const double size = length(high - low), moved = 2 * speed * dt;
+    const Point centre = 0.5 * (low + high), end = farthest(group, centre), other = farthest(group, end);
+    const double extent = length(other - end);
+    const Point along = extent > 0 ? (1 / extent) * (other - end) : Point{1, 0};
+    double across = 0;
+    for (const Overlap& overlap : overlaps()) {
+      if (overlap.group != group) continue;
+      for (const Corner& corner : overlap.polygon)
+        across = std::max(across, std::abs(cross(along, corner.at - centre)));
+    }
+    return {centre, size, size / 2 + moved, along, across + moved};
   }
 
  private:
+  /// The corner of a group that lies farthest from a point.
+  Point farthest(std::uint32_t group, Point from) const {
+    Point found = from;
+    double largest = 0;
+    for (const Overlap& overlap : overlaps()) {
+      if (overlap.group != group) continue;
+      for (const Corner& corner : overlap.polygon) {
+        const double distance = length(corner.at - from);
+        if (distance > largest) largest = distance, found = corner.at;
+      }
+    }
+    return found;
+  }
+
   void spread(std::uint32_t group) {
     for (bool grown = true; grown;) {
       grown = false;
