@@ -56,4 +56,18 @@ double Function::integral(double time, Vec2 at) const {
   return sum;
 }
 
+void Function::add_kinks(Vec2 from, Vec2 to, std::vector<double>& shares) const {
+  const auto add = [&](const std::optional<Table>& table, double start, double end) {
+    if (!table || start == end) return;
+    for (const double point : table->points()) {
+      const double share = (point - start) / (end - start);
+      if (share > 0 && share < 1) shares.push_back(share);
+    }
+  };
+  for (const Product& product : terms) {
+    add(product.x, from.x, to.x);
+    add(product.y, from.y, to.y);
+  }
+}
+
 }  // namespace talus

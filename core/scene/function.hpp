@@ -17,6 +17,7 @@ class Table {
   double operator()(double where) const;
   /// ∫ from 0 to `where`, exact but for rounding.
   double integral(double where) const;
+  const std::vector<double>& points() const { return at_; }
 
  private:
   double antiderivative(double where) const;  ///< zero at the first point
@@ -42,6 +43,8 @@ struct Function {
   /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
   double integral(double time, Vec2 at) const;
   bool zero() const { return terms.empty(); }
+  /// Adds the shares of the way from one place to another at which a table over place has a point.
+  void add_kinks(Vec2 from, Vec2 to, std::vector<double>& shares) const;
 };
 
 using VectorFunction = std::array<Function, 2>;

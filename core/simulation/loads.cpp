@@ -23,21 +23,31 @@ Vec2 between(Vec2 p, Vec2 q, double lever) {
 
 }  // namespace
 
-/// Calls visit with each Gauss point of the sides of a body's surface.
+/// Calls visit with each Gauss point of the sides of a body's surface, between the kinks of some functions.
 template <class Visit>
 void Loads::visit_sides(const Scene& scene, const Model& model, std::uint32_t body,
-                        std::uint32_t surface_class, const Visit& visit) {
+                        std::uint32_t surface_class, const Functions& functions, const Visit& visit) {
   const double outer = std::sqrt(0.15);
   const std::array<double, gauss_points> lever{0.5 - outer, 0.5, 0.5 + outer};
   const std::array<double, gauss_points> share{5.0 / 18, 8.0 / 18, 5.0 / 18};
   const Vec2 centre = model.bodies[body].centre;
+  const auto in_scene = [&](Vec2 reference) { return Vec2{centre.x + reference.x, centre.y + reference.y}; };
   for (const BoundarySide& side : boundary_of(scene, model, body)) {
     if (side.surface != surface_class) continue;
     const auto index = static_cast<std::uint32_t>(sides_.size());
     sides_.push_back(side);
-    for (std::size_t g = 0; g < gauss_points; ++g) {
-      const Vec2 at = between(side.start.reference, side.end.reference, lever[g]);
-      visit(SideShare{index, lever[g], share[g], {centre.x + at.x, centre.y + at.y}});
+    std::vector<double> ends{0, 1};
+    for (const Function* function : functions)
+      function->add_kinks(in_scene(side.start.reference), in_scene(side.end.reference), ends);
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const double length = ends[k + 1] - ends[k];
+      if (!(length > 0)) continue;
+      for (std::size_t g = 0; g < gauss_points; ++g) {
+        const double at = ends[k] + length * lever[g];
+        visit(SideShare{index, at, length * share[g],
+                        in_scene(between(side.start.reference, side.end.reference, at))});
+      }
     }
   }
 }
@@ -50,15 +60,23 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
     points_.push_back({model.point(load.body, reference), load.point, load.force, {}});
   }
   for (std::uint32_t i = 0; i < surface_loads_.size(); ++i) {
-    visit_sides(scene, model, surface_loads_[i].body, surface_loads_[i].surface_class,
-                [&](const SideShare& at) {
+    const SurfaceLoad& load = surface_loads_[i];
+    visit_sides(scene, model, load.body, load.surface_class,
+                {load.traction.data(), &load.traction[1], &load.pressure}, [&](const SideShare& at) {
                   surface_points_.push_back({at, i, {}});
                 });
   }
   for (std::uint32_t i = 0; i < prescribed_.size(); ++i) {
-    visit_sides(scene, model, prescribed_[i].body, prescribed_[i].surface_class, [&](const SideShare& at) {
-      support_points_.push_back({at, i});
-    });
+    Functions functions;
+    for (const auto* either : {&prescribed_[i].displacement, &prescribed_[i].velocity}) {
+      for (const auto& along : *either) {
+        if (along) functions.push_back(&*along);
+      }
+    }
+    visit_sides(scene, model, prescribed_[i].body, prescribed_[i].surface_class, functions,
+                [&](const SideShare& at) {
+                  support_points_.push_back({at, i});
+                });
   }
   for (const AbsorbingSurface& absorbing : settings.absorbing) {
     const SceneMaterial& material = scene.materials[scene.bodies[absorbing.body].material];
@@ -66,7 +84,7 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
     make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
     const double pressure = std::sqrt(material.density * tangent[0]);
     const double shear = std::sqrt(material.density * tangent[8]);
-    visit_sides(scene, model, absorbing.body, absorbing.surface_class, [&](const SideShare& at) {
+    visit_sides(scene, model, absorbing.body, absorbing.surface_class, {}, [&](const SideShare& at) {
       absorbing_points_.push_back({at, pressure, shear, {}});
     });
   }

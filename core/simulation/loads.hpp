@@ -41,7 +41,9 @@ class Loads {
     VectorFunction force;
     Worker worker;
   };
-  static constexpr std::size_t gauss_points = 3;  ///< per side: exact for tractions up to degree 4 along it
+  /// Of each stretch of a side on which all functions are smooth: exact for tractions up to degree 4 along
+  /// it.
+  static constexpr std::size_t gauss_points = 3;
   /// A part of a side around a Gauss point.
   struct SideShare {
     std::uint32_t side;  ///< index into sides_
@@ -67,9 +69,10 @@ class Loads {
     Worker worker;
   };
 
+  using Functions = std::vector<const Function*>;
   template <class Visit>
   void visit_sides(const Scene& scene, const Model& model, std::uint32_t body, std::uint32_t surface_class,
-                   const Visit& visit);
+                   const Functions& functions, const Visit& visit);
   void work_through(Worker& worker, Vec2 force, Vec2 moved);
   void apply_points(MotionState& motion, double time, double dt);
   void apply_surface_loads(MotionState& motion, double time, double dt);

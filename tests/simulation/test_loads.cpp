@@ -93,3 +93,35 @@ TEST_CASE("an eccentric load turns the body by its moment", "[simulation][loads]
   CHECK(simulation.body_motion(0).rotation == Approx(10 * 0.5 / (2300 / 6.0) * 0.125).epsilon(1e-4));
   CHECK(simulation.summary().largest_residual_share < 1e-4);
 }
+
+TEST_CASE("a surface load over a part of a side is all of it, wherever it lies", "[simulation][loads]") {
+  // 2e4 Pa on x in [1, 2] of a side of 10 m, with ramps of a millimetre; and the water on 30 m of a face of
+  // 40 m.
+  WorkingScene text;
+  const double density = 2300;
+  text.time = R"({"end": 0.001})";
+  for (const std::string cover : {"rigid", "block"}) {
+    text.cover = cover;
+    text.bodies = box("a", -5, -1, 5, 0, R"("surfaces": {"top": [2]})");
+    text.rest = R"("surface_loads": [{"body": "a", "surface": "top",
+        "traction": [0, {"scale": -2e4, "x": [[0.999, 0], [1.001, 1], [1.999, 1], [2.001, 0]]}]}],)";
+    const double strip = run_to_end(text).body_motion(0).velocity.y;
+    CHECK(strip * density * 10 / 0.001 == Approx(-2e4).epsilon(1e-9));
+
+    text.bodies = box("a", 0, 0, 20, 40, R"("surfaces": {"face": [3]})");
+    text.rest = R"("surface_loads": [{"body": "a", "surface": "face",
+        "pressure": {"scale": 1, "y": [[0, 294300], [30, 0]]}}],)";
+    const double dam = run_to_end(text).body_motion(0).velocity.x;
+    CHECK(dam * density * 800 / 0.001 == Approx(294300.0 * 30 / 2).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a support whose motion varies along a side pulls as its mean", "[simulation][loads]") {
+  // Lifted by 1 mm on [4, 6] of a foot of 10 m: by 0.2 mm in the mean.
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 10, 1, below);
+  text.rest = R"("damping": 200, "prescribed": [{"body": "a", "surface": "below", "stiffness": 1e9,
+      "displacement": [null, {"scale": 1e-3, "x": [[3.999, 0], [4.001, 1], [5.999, 1], [6.001, 0]]}]}],)";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.body_motion(0).displacement.y == Approx(2e-4).epsilon(1e-6));
+}
