@@ -27,14 +27,24 @@ std::vector<ReducedRun> by_factor(std::vector<ReducedRun> runs) {
   return runs;
 }
 
+bool was_stopped(const ReducedRun& run) {
+  return !run.trouble.empty();
+}
+
+/// A run that was stopped says nothing of how far what moved.
 std::string safety_csv(const Scene& scene, const Safety& safety) {
-  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies\n";
+  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
     std::string moving;
     for (const std::size_t body : run.moving) moving += (moving.empty() ? "" : " ") + scene.bodies[body].name;
-    const std::string fields[] = {fmt::format("{}", run.factor),       run.collapsed ? "1" : "0",
-                                  fmt::format("{}", run.displacement), scene.bodies[run.body].name,
-                                  fmt::format("{}", run.kinetic),      moving};
+    const bool stopped = was_stopped(run);
+    const std::string fields[] = {fmt::format("{}", run.factor),
+                                  run.collapsed ? "1" : "0",
+                                  stopped ? "" : fmt::format("{}", run.displacement),
+                                  stopped ? "" : scene.bodies[run.body].name,
+                                  stopped ? "" : fmt::format("{}", run.kinetic),
+                                  moving,
+                                  run.trouble};
     text += csv_line(fields) + "\n";
   }
   return text;
@@ -43,16 +53,40 @@ std::string safety_csv(const Scene& scene, const Safety& safety) {
 std::string safety_svg(const Safety& safety) {
   Curve curve{"largest displacement of a body", {}, {}, 0, ""};
   for (const ReducedRun& run : by_factor(safety.runs)) {
-    if (!run.trouble.empty()) continue;
+    if (was_stopped(run)) continue;
     curve.x.push_back(run.factor);
     curve.y.push_back(run.displacement);
   }
   const auto factor = safety.factor();
-  return chart_svg(factor ? fmt::format("factor of safety {:.3g}", *factor) : "strength reduction", "factor",
+  const bool found = factor && !safety.interrupted;
+  return chart_svg(found ? fmt::format("factor of safety {:.3g}", *factor) : "strength reduction", "factor",
                    "displacement [m]", {curve});
 }
 
+void say_try(const Scene& scene, const ReducedRun& run) {
+  if (was_stopped(run)) {
+    fmt::print("{:>10.5g}  {:<10}{:>18}  {:<20}{:>15}\n", run.factor, "stopped", "-", "-", "-");
+  } else {
+    fmt::print("{:>10.5g}  {:<10}{:>18.4g}  {:<20}{:>15.4g}\n", run.factor,
+               run.collapsed ? "collapses" : "stands", run.displacement, scene.bodies[run.body].name,
+               run.kinetic);
+  }
+  std::fflush(stdout);
+}
+
+void say_bounds(const Safety& safety) {
+  const auto known = [](const std::optional<double>& factor) {
+    return factor ? fmt::format("{:.4g}", *factor) : "no factor yet";
+  };
+  fmt::print("interrupted: found to stand at {}, to collapse at {}\n", known(safety.stands),
+             known(safety.falls));
+}
+
 void say_result(const Scene& scene, const Safety& safety) {
+  if (safety.interrupted) {
+    say_bounds(safety);
+    return;
+  }
   if (const auto factor = safety.factor()) {
     fmt::print("factor of safety {:.4g}: stands at {:.4g}, collapses at {:.4g}\n", *factor, *safety.stands,
                *safety.falls);
@@ -60,6 +94,9 @@ void say_result(const Scene& scene, const Safety& safety) {
                                      [&](const ReducedRun& run) { return run.factor == *safety.falls; });
     std::vector<std::string> names;
     for (const std::size_t body : fallen->moving) names.push_back(scene.bodies[body].name);
+    if (was_stopped(*fallen))
+      print_warning(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",
+                                fallen->factor, fallen->trouble));
     if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen->factor, listed(names));
   } else if (safety.falls) {
     fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
@@ -122,12 +159,7 @@ int safety_command(const Words& words) {
   const std::atomic<bool>* asked_to_stop = watch_for_interrupts();
   settings.interrupted = [asked_to_stop] { return asked_to_stop->load(); };
   fmt::print("{:>10}  {:<10}{:>18}  {:<20}{:>15}\n", "factor", "", "displacement [m]", "of", "kinetic [J/m]");
-  settings.tried = [&](const ReducedRun& run) {
-    fmt::print("{:>10.5g}  {:<10}{:>18.4g}  {:<20}{:>15.4g}\n", run.factor,
-               run.collapsed ? "collapses" : "stands", run.displacement, scene.bodies[run.body].name,
-               run.kinetic);
-    std::fflush(stdout);
-  };
+  settings.tried = [&](const ReducedRun& run) { say_try(scene, run); };
   const Safety safety = factor_of_safety(scene, settings);
   write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
   write_whole_file(folder / "safety.svg", safety_svg(safety));

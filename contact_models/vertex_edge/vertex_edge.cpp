@@ -135,9 +135,9 @@ class VertexEdge final : public ContactModel {
       const double touching =
           1e-12 * std::min(longest_side(geometry.piece[0]), longest_side(geometry.piece[1]));
       const auto bond_reach = [&](std::uint32_t key) {
-        if (batch.bonds_form) return touching;
         const SpringHistory* old = find_old(work.old, key);
-        return old != nullptr && old->intact == 1 ? reach_of_bonds(batch.interfaces) : 0.0;
+        if (old != nullptr && old->intact == 1) return reach_of_bonds(batch.interfaces);
+        return batch.bonds_form ? touching : 0.0;
       };
       work.finder.find(geometry, e, bond_reach, work.found);
     }

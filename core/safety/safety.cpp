@@ -29,20 +29,50 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
       values[i] /= factor;
     }
   }
+  // Rock that has less friction dilates no more than that allows.
+  const auto value_of = [&](std::string_view key) -> double* {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (key == parameters[i].key) return &values[i];
+    }
+    return nullptr;
+  };
+  const double* const friction = value_of("friction_angle");
+  double* const dilation = value_of("dilation_angle");
+  if (friction != nullptr && dilation != nullptr) *dilation = std::min(*dilation, *friction);
   return reduced;
 }
 
-/// Of each body: how far it has moved, and how fast its centre is.
+/// Of each body, its vertices.
+using Shape = std::vector<std::vector<Motion>>;
+
+Shape shape_of(const Simulation& simulation) {
+  Shape shape;
+  const Scene& scene = simulation.scene();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::vector<Motion>& vertices = shape.emplace_back();
+    for (const Vec2 vertex : scene.bodies[i].outer.vertices)
+      vertices.push_back(simulation.point_motion(i, vertex));
+  }
+  return shape;
+}
+
+/// Of each body: how far the vertex has moved that moved farthest, and the largest speed of one.
 struct Instant {
   std::vector<double> moved, speed;
 };
 
-Instant instant_of(const Simulation& simulation) {
+Instant instant_of(const Simulation& simulation, const Shape& from) {
   Instant instant;
-  for (std::size_t i = 0; i < simulation.body_count(); ++i) {
-    const Motion motion = simulation.body_motion(i);
-    instant.moved.push_back(std::hypot(motion.displacement.x, motion.displacement.y));
-    instant.speed.push_back(std::hypot(motion.velocity.x, motion.velocity.y));
+  const Shape now = shape_of(simulation);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    double moved = 0, speed = 0;
+    for (std::size_t k = 0; k < now[i].size(); ++k) {
+      const Vec2 p = now[i][k].position, q = from[i][k].position, v = now[i][k].velocity;
+      moved = std::max(moved, std::hypot(p.x - q.x, p.y - q.y));
+      speed = std::max(speed, std::hypot(v.x, v.y));
+    }
+    instant.moved.push_back(moved);
+    instant.speed.push_back(speed);
   }
   return instant;
 }
@@ -56,6 +86,7 @@ class Reduction {
     Simulation whole(with_reduced_strength(scene_, 1), run_);
     settled_ = whole.settle(settings_.interrupted);
     geometry_ = whole.geometry();
+    settled_shape_ = shape_of(whole);
   }
 
   bool settled() const { return settled_; }
@@ -72,7 +103,7 @@ class Reduction {
         return simulation.advance(settings_.interrupted) && simulation.history_due();
       };
       if (!advance() || !advance()) return std::nullopt;
-      const Instant middle = instant_of(simulation);
+      const Instant middle = instant_of(simulation, settled_shape_);
       if (!advance()) return std::nullopt;
       judge(simulation, middle, result);
     } catch (const NumericalTrouble& trouble) {
@@ -84,7 +115,7 @@ class Reduction {
 
  private:
   void judge(const Simulation& simulation, const Instant& middle, ReducedRun& result) const {
-    const Instant end = instant_of(simulation);
+    const Instant end = instant_of(simulation, settled_shape_);
     for (std::size_t i = 0; i < end.moved.size(); ++i) {
       if (scene_.bodies[i].fixed) continue;
       if (end.moved[i] > result.displacement) {
@@ -104,6 +135,7 @@ class Reduction {
   const SafetySettings& settings_;
   RunSettings run_;
   Geometry geometry_;
+  Shape settled_shape_;
   bool settled_ = false;
 };
 

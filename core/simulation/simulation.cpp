@@ -23,6 +23,7 @@ const Scene& Simulation::scene() const {
 
 void Simulation::take_geometry(const Geometry& geometry) {
   State& s = *state_;
+  s.touch_as_drawn();
   const double* from = geometry.unknowns.data();
   for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
     const std::uint32_t index = s.numbering.inside(i);

@@ -105,6 +105,7 @@ struct Simulation::State {
   Vec2 gravity() const;
   bool settled() const;
   double evaluate_contacts();
+  void touch_as_drawn();
   bool may_sleep() const;
   Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion, at_time}; }
   double energy_floor() const;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <numbers>
 #include <sstream>
@@ -45,7 +46,7 @@ TEST_CASE(
   std::istringstream csv(read_whole_file(scratch / "results/safety.csv"));
   std::string line;
   std::getline(csv, line);
-  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies");
+  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by");
   double last_factor = 0;
   int last_collapsed = 0, rows = 0;
   for (; std::getline(csv, line); ++rows) {
@@ -93,4 +94,25 @@ TEST_CASE("talus safety does not take trouble at any strength for a collapse", "
       scratch.folder(), {"safety", TALUS_SCENES "/column.json", "--set", "/time/dt=2e-4", "--out", "column"});
   CHECK(call.code == 4);
   CHECK_THAT(call.err, Contains("however strong the scene is") && Contains("the step"));
+}
+
+TEST_CASE("talus safety tells a run that was stopped from one that collapsed", "[apps][safety]") {
+  const Scratch scratch;
+  const Call call = reduce(scratch, {"--tolerance", "0.2", "--set", "/limits/energy_residual=1e-9"});
+  INFO(call.out << call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("1.25  stopped"));
+  CHECK_THAT(call.err, Contains("counts as a collapse because it was stopped: ") && Contains("energy"));
+  CHECK_THAT(read_whole_file(scratch / "results/safety.csv"), Contains("1.25,1,,,,,"));
+}
+
+TEST_CASE("talus safety that is interrupted gives no factor", "[apps][safety]") {
+  const Scratch scratch;
+  const Call call = call_and_signal_after(
+      scratch.folder(),
+      {"safety", TALUS_SCENES "/stick_31deg.json", "--set", "/time/dt=1e-6", "--out", "results"}, SIGINT, 1);
+  INFO(call.out << call.err);
+  CHECK(call.code == 130);
+  CHECK_THAT(call.out, Contains("interrupted: found to stand at ") && !Contains("factor of safety"));
+  CHECK_THAT(read_whole_file(scratch / "results/safety.svg"), !Contains("factor of safety"));
 }

@@ -1,5 +1,6 @@
 #include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -235,4 +236,30 @@ TEST_CASE("cohesive_overlap: while held, nothing breaks; once let go, what is to
   joint.bench.hold_stick = joint.bench.bonds_form = false;
   CHECK(joint.go({0, 0}, 0, 1).y == 0);
   CHECK(joint.booked == Approx(across_joint * 9e-6 / 2).epsilon(1e-9));
+}
+
+TEST_CASE("What hangs by its bonds hangs in a run that starts from its settled geometry, too",
+          "[laws][bonds]") {
+  const std::string law = GENERATE("cohesive_overlap", "vertex_edge");
+  INFO(law);
+  WorkingScene text;
+  text.law = law;
+  text.gravity = "[0, -10]";
+  text.material = R"("density": 2000)";
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+      "normal_damping": 0.3, "tangential_damping": 0.3, "cohesion": 3e5, "tensile_strength": 1e5)";
+  text.bodies = box("ceiling", -2, 0, 3, 1, R"("fixed": true)") + "," + box("a", 0, -1, 1, 0);
+  text.time = R"({"end": 0.5})";
+  text.rest = R"("settle": {"duration": 1, "damping": "adaptive"},)";
+  Simulation first(text.read(), {});
+  REQUIRE(first.settle());
+  Simulation second(text.read(), {});
+  second.take_geometry(first.geometry());
+  REQUIRE(second.settle());
+  for (Simulation* simulation : {&first, &second}) {
+    while (simulation->time() < 0.5) simulation->advance();
+    // Its weight of 2e4 N/m opens the joint of 1 m by 2e-5 m, before t = 0.
+    CHECK(simulation->body_motion(1).displacement.y == Approx(0).margin(1e-7));
+    CHECK(simulation->body_motion(1).position.y == Approx(-0.5 - 2e-5).margin(1e-7));
+  }
 }

@@ -122,3 +122,42 @@ TEST_CASE("Strength is that of interfaces and of materials, and a scene without 
   CHECK_THROWS_AS(with_reduced_strength(shipped("collision", {{"/interfaces/0/friction_angle", "0"}}), 2),
                   InputError);
 }
+
+TEST_CASE("A material dilates no more than its reduced friction allows", "[safety]") {
+  const Scene scene =
+      from_text(R"({"talus": 1, "materials": {"rock": {"density": 2300, "model": "mohr_coulomb",
+      "young_modulus": 1e8, "poisson_ratio": 0.25, "friction_angle": 30, "cohesion": 1e4, "dilation_angle": 20}},
+      "contact": {"model": "frictionless"},
+      "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e9, "normal_damping": 0}],
+      "bodies": [{"name": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "material": "rock"}],
+      "time": {"end": 1}})");
+  const auto values = [](const Scene& of, const char* key) {
+    const SceneMaterial& material = of.materials[0];
+    const Component& component = *material.model.component->component;
+    for (std::uint32_t i = 0; i < component.parameter_count; ++i) {
+      if (std::string(component.parameters[i].key) == key) return material.model.values[i];
+    }
+    return -1.0;
+  };
+  const Scene little = with_reduced_strength(scene, 1.2), much = with_reduced_strength(scene, 2);
+  CHECK(values(little, "dilation_angle") == values(scene, "dilation_angle"));
+  CHECK(values(much, "dilation_angle") == values(much, "friction_angle"));
+  CHECK(values(much, "friction_angle") == Approx(std::atan(std::tan(30 * degree) / 2)));
+}
+
+TEST_CASE("What sinks while it settles with less strength has failed", "[safety]") {
+  // A block of 2 m under its weight yields from a factor of 1.5 on, 2 c / (ρ g h / 2), and finds rest again
+  // once it is wide enough: from 1.575 on it sinks by a twentieth of its width for that.
+  const Scene scene = from_text(R"({"talus": 1, "gravity": [0, -10],
+      "materials": {"r": {"density": 2000, "model": "mohr_coulomb", "young_modulus": 1e8, "poisson_ratio": 0.25,
+                          "friction_angle": 0, "cohesion": 15000, "dilation_angle": 0}, "s": {"density": 2000}},
+      "contact": {"model": "overlap_area"},
+      "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e10, "tangential_stiffness": 1e10,
+                      "friction_angle": 0, "normal_damping": 0.3, "tangential_damping": 0.3}],
+      "bodies": [{"name": "base", "material": "s", "fixed": true, "polygon": [[-6, -1], [8, -1], [8, 0], [-6, 0]]},
+                 {"name": "a", "material": "r", "polygon": [[0, 0], [2, 0], [2, 2], [0, 2]], "cover": {"model": "block"}}],
+      "damping": 20, "time": {"end": 1}, "settle": {"duration": 2, "damping": 20}})");
+  const double factor = factor_of(scene, 0.05);
+  CHECK(factor > 1.5);
+  CHECK(factor < 1.7);
+}
