@@ -94,7 +94,8 @@ class CornerFinder {
       if (other.depth(k, at) < -slack) return;
     }
     contact.lever = other.lever(contact.side, at);
-    contact.tributary = own.is_strip() ? own.length(0) / 2 : tributary_length(own, other, v, contact.side);
+    contact.tributary = own.is_strip() ? half_facing(own, other.tangent(contact.side))
+                                       : tributary_length(own, other, v, contact.side);
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
@@ -127,6 +128,12 @@ class CornerFinder {
     const auto [low, high] = straight_run(other, side);
     const double shadow = std::min(high, std::max(here, there)) - std::max(low, std::min(here, there));
     return std::max(shadow, 0.1 * own.length(edge)) / 2;
+  }
+
+  /// Half of a strip's side, as far as it faces another: a side that stands upright on the other, at the end
+  /// of a base, carries nothing there, whichever way it leans by a hair.
+  static double half_facing(const Piece& strip, Point along) {
+    return strip.length(0) / 2 * std::abs(dot(strip.tangent(0), along));
   }
 
   /// The straight stretch of boundary a side belongs to, along its tangent from its start: collinear

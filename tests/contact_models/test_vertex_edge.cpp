@@ -1,5 +1,6 @@
 #include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -127,4 +128,26 @@ TEST_CASE("A vertex passes the joint between collinear edges without a kick", "[
     CHECK(p.x == Approx(q.x).epsilon(1e-9));
     CHECK(p.y == Approx(q.y).epsilon(1e-9));
   }
+}
+
+TEST_CASE("A body of many elements that leans by a hair stands on its base alone", "[vertex_edge]") {
+  // A pressure that rises from 0.4 to 1.6 of its mean is borne by a base pressure that does so, too; the
+  // upright sides at the ends of the base carry nothing.
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e11, "poisson_ratio": 0,
+                     "damping_time": 1e-6)";
+  text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 0,
+                      "normal_damping": 0.3, "tangential_damping": 0)";
+  text.bodies =
+      box("base", -2, -3, 3, 0, R"("fixed": true)") + "," +
+      box("a", 0, 0, 1, 1,
+          R"("surfaces": {"top": [2]}, "cover": {"model": "hexagonal", "size": 0.25, "angle": 11})");
+  text.rest = R"("damping": 100, "surface_loads": [{"body": "a", "surface": "top",
+      "pressure": {"scale": 1e5, "x": [[0, 0.4], [1, 1.6]]}}], "limits": {"energy_residual": 1e9},)";
+  text.time = R"({"end": 0.2})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.point_motion(1, {0, 0}).displacement.y == Approx(-0.4e-3).epsilon(0.06));
+  CHECK(simulation.point_motion(1, {1, 0}).displacement.y == Approx(-1.6e-3).epsilon(0.03));
 }
