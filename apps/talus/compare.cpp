@@ -62,8 +62,8 @@ void tell_troubles(const Comparison& comparison, const std::filesystem::path& fo
     }
     if (run.result.end == RunEnd::stopped) log.error(run.value + ": " + run.result.trouble);
     if (run.result.end == RunEnd::interrupted) {
-      log.info("interrupted", fmt::format("{}: interrupted at t = {:.6g} s; results so far are in {}",
-                                          run.value, run.result.time, folder.string()));
+      log.info("interrupted", fmt::format("{}: interrupted at {}; results so far are in {}", run.value,
+                                          time_in_words(run.result, run.result.time), folder.string()));
     }
   }
 }
@@ -124,7 +124,9 @@ int compare_command(const Words& words) {
   order.scene_hash = hash_of_file(file);
   if (const std::string named = text_option(*given, "reference"); !named.empty()) {
     const std::filesystem::path reference = here_or_shipped(named);
-    order.reference = ReferenceFile{reference.string(), hash_of_file(reference), read_series(reference)};
+    const std::string text = read_whole_file(reference);
+    order.reference = ReferenceFile{reference.string(), hash_of_file(reference),
+                                    read_series_text(text, reference.string()), text};
   }
   check_order(order);
   const bool overwrite = given->count("overwrite") != 0;
@@ -145,6 +147,7 @@ int compare_command(const Words& words) {
   const Comparison comparison = compare(order);
   progress.clear();
 
+  if (order.reference) write_whole_file(order.folder / reference_copy, order.reference->text);
   write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
   write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
   if (given->count("no-report") == 0) write_report(order.folder);

@@ -26,8 +26,8 @@ std::optional<double> seconds_of(const Usage& usage, const po::variables_map& gi
 
 void print_summary(const RunResult& result, const std::filesystem::path& folder) {
   const RunSummary& summary = result.summary;
-  fmt::print("{} at t = {:.6g} s: {} steps of at most {:.6g} s", name_of(result.end), result.time,
-             summary.steps, summary.dt);
+  fmt::print("{} at {}: {} steps of at most {:.6g} s", name_of(result.end),
+             time_in_words(result, result.time), summary.steps, summary.dt);
   if (!summary.dt_limiter.empty()) fmt::print(" ({})", summary.dt_limiter);
   fmt::print("\n{:.3f} s in the steps, {:.3g} block-steps per second\n", result.stepping.wall,
              result.block_steps_per_second);
@@ -96,16 +96,17 @@ void say_how_it_ended(const RunResult& result, const std::filesystem::path& fold
   if (result.end == RunEnd::stopped) log.error(result.trouble, facts_of(result, folder));
   if (log.in_json()) return;
   if (result.end == RunEnd::interrupted) {
-    log.info("interrupted", fmt::format("{} at t = {:.6g} s; results so far are in {}",
+    log.info("interrupted", fmt::format("{} at {}; results so far are in {}",
                                         result.out_of_wall_time ? "out of wall time" : "interrupted",
-                                        result.time, folder.string()));
+                                        time_in_words(result, result.time), folder.string()));
   }
   if (result.end == RunEnd::finished || result.checkpoint.empty()) return;
-  log.info("checkpoint", fmt::format("{} {} holds the state at t = {:.6g} s",
-                                     result.end == RunEnd::interrupted
-                                         ? fmt::format("`talus resume {}` goes on:", folder.string())
-                                         : "the last good state was kept:",
-                                     result.checkpoint.string(), result.checkpoint_time));
+  log.info("checkpoint",
+           fmt::format("{} {} holds the state at {}",
+                       result.end == RunEnd::interrupted
+                           ? fmt::format("`talus resume {}` goes on:", folder.string())
+                           : "the last good state was kept:",
+                       result.checkpoint.string(), time_in_words(result, result.checkpoint_time)));
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ void check_order(const ComparisonOrder& order) {
 bool Comparison::tolerances_held() const {
   for (const ComparedTolerance& each : tolerances) {
     for (const ToleranceCheck& found : each.checks) {
-      if (!found.held) return false;
+      if (found.verdict != ToleranceVerdict::held) return false;
     }
   }
   return true;
@@ -211,6 +211,11 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
     if (run > 0) add_deviations(order, comparison, run, comparison.runs[0].result.history, false);
     if (order.reference) add_deviations(order, comparison, run, order.reference->series, true);
   }
+  const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
+    const auto unfinished = [](const ComparedRun& each) { return each.result.end != RunEnd::finished; };
+    return unfinished(comparison.runs[run]) ||
+           (!tolerance.against_reference && unfinished(comparison.runs[0]));
+  };
   for (const Tolerance& tolerance : order.scenes[0].tolerances) {
     if (tolerance.against_reference && !order.reference) {
       comparison.warnings.push_back(
@@ -223,7 +228,7 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
       for (const ColumnDeviation& each : comparison.deviations) {
         if (each.run == run && each.from_reference == tolerance.against_reference &&
             is_column_of(each.column, tolerance)) {
-          entry.checks = check(tolerance, each.deviation);
+          entry.checks = check(tolerance, each.deviation, cut_short(run, tolerance));
         }
       }
       if (entry.checks.empty()) {

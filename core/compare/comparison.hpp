@@ -17,6 +17,7 @@ struct ReferenceFile {
   std::string file;
   std::string hash;  ///< XXH3-128 of its bytes
   Series series;
+  std::string text{};  ///< of the file, for a copy
 };
 
 /// What is to be compared: one scene per value of the variation, the first one the baseline.

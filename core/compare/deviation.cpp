@@ -1,6 +1,7 @@
 #include "compare/deviation.hpp"
 
 #include <cmath>
+#include <string_view>
 
 namespace talus {
 
@@ -37,10 +38,28 @@ std::optional<double> deviation_at(const Series& series, std::size_t column, con
   return *value - *expected;
 }
 
-std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation) {
+const char* name_of(ToleranceVerdict verdict) {
+  switch (verdict) {
+    case ToleranceVerdict::held:
+      return "held";
+    case ToleranceVerdict::broken:
+      return "broken";
+    case ToleranceVerdict::cut_short:
+      break;
+  }
+  return "cut short";
+}
+
+std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation, bool cut_short) {
   std::vector<ToleranceCheck> checks;
   const auto add = [&](const char* measure, const std::optional<double>& allowed, double found) {
-    if (allowed) checks.push_back({measure, *allowed, found, std::abs(found) <= *allowed});
+    if (!allowed) return;
+    const bool within = std::abs(found) <= *allowed;
+    ToleranceVerdict verdict = within ? ToleranceVerdict::held : ToleranceVerdict::broken;
+    // What is the mean or the last of a part says nothing of the whole.
+    if (cut_short && (within || std::string_view(measure) != "largest"))
+      verdict = ToleranceVerdict::cut_short;
+    checks.push_back({measure, *allowed, found, verdict});
   };
   add("largest", tolerance.largest, deviation.largest);
   add("rms", tolerance.rms, deviation.rms);

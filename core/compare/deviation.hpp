@@ -29,14 +29,21 @@ std::optional<Deviation> deviation(const Series& series, std::size_t column, con
 std::optional<double> deviation_at(const Series& series, std::size_t column, const Series& other,
                                    std::size_t other_column, double time);
 
-/// One limit of a tolerance, held or broken.
+/// Of a run that was cut short, or has a baseline that was, no limit is known to be held.
+enum class ToleranceVerdict { held, broken, cut_short };
+
+const char* name_of(ToleranceVerdict verdict);  ///< in words
+
+/// One limit of a tolerance.
 struct ToleranceCheck {
   std::string measure;  ///< "largest", "rms" or "final"
   double allowed, found;
-  bool held;
+  ToleranceVerdict verdict;
 };
 
-/// One check for each limit that the tolerance states. A deviation that is no number breaks it.
-std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation);
+/// One check for each limit that the tolerance states. A deviation that is no number breaks it; one of runs
+/// that were cut short can only be too large already.
+std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation,
+                                  bool cut_short = false);
 
 }  // namespace talus

@@ -2,16 +2,21 @@
 
 #include "compare/comparison.hpp"
 
+#include <optional>
 #include <string>
 
 namespace talus {
 
 /// Cost of a run as a ratio to the baseline's.
 struct CostRatio {
-  double at_equal_dt = 0;
-  double at_own_dt = 0;  ///< CPU seconds per step times the steps the run would need at its own automatic dt
-  double own_steps = 0;  ///< those steps
+  std::optional<double> at_equal_dt;  ///< nothing unless both made a step
+  /// CPU seconds per step times the steps the run would need at its own automatic dt, and those steps;
+  /// nothing unless both came to their end.
+  std::optional<double> at_own_dt, own_steps;
 };
+
+/// The reference as it was read, in the folder of the comparison.
+inline constexpr const char* reference_copy = "reference.csv";
 
 CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline);
 

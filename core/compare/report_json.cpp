@@ -24,16 +24,16 @@ Json run_json(const ComparedRun& run, const ComparedRun& baseline) {
   json["folder"] = folder_of_value(run.value);
   json["end"] = name_of(result.end);
   if (result.end == RunEnd::stopped) json["trouble"] = result.trouble;
-  json["t [s]"] = result.time;
+  json["t [s]"] = result.never_settled ? 0 : result.time;
   json["steps"] = result.summary.steps;
   json["dt [s]"] = result.summary.dt;
   json["dt_limiter"] = result.summary.dt_limiter;
   json["own_dt [s]"] = run.own_dt;
-  json["own_steps"] = ratio.own_steps;
+  json["own_steps"] = optional_json(ratio.own_steps);
   json["cpu [s]"] = result.stepping.cpu;
   json["settling cpu [s]"] = result.settling.cpu;
-  json["cost_at_equal_dt"] = ratio.at_equal_dt;
-  json["cost_at_own_dt"] = ratio.at_own_dt;
+  json["cost_at_equal_dt"] = optional_json(ratio.at_equal_dt);
+  json["cost_at_own_dt"] = optional_json(ratio.at_own_dt);
   json["largest_penetration [m]"] = result.summary.largest_penetration;
   json["largest_residual_share"] = result.summary.largest_residual_share;
   json["ledger_residual [J/m]"] = result.ledger.residual;
@@ -65,7 +65,7 @@ Json tolerances_json(const Comparison& comparison) {
                       {"measure", found.measure},
                       {"allowed", found.allowed},
                       {"found", found.found},
-                      {"verdict", found.held ? "held" : "broken"}});
+                      {"verdict", name_of(found.verdict)}});
     }
   }
   return list;
@@ -74,6 +74,8 @@ Json tolerances_json(const Comparison& comparison) {
 }  // namespace
 
 CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
+  CostRatio ratio;
+  const auto finished = [](const ComparedRun& each) { return each.result.end == RunEnd::finished; };
   const auto own_steps = [](const ComparedRun& each) {
     const RunSummary& summary = each.result.summary;
     return std::ceil(static_cast<double>(summary.steps) * summary.dt / each.own_dt);
@@ -81,8 +83,12 @@ CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
   const auto per_step = [](const ComparedRun& each) {
     return each.result.stepping.cpu / static_cast<double>(each.result.summary.steps);
   };
-  return {per_step(run) / per_step(baseline),
-          per_step(run) * own_steps(run) / (per_step(baseline) * own_steps(baseline)), own_steps(run)};
+  if (finished(run)) ratio.own_steps = own_steps(run);
+  if (run.result.summary.steps == 0 || baseline.result.summary.steps == 0) return ratio;
+  ratio.at_equal_dt = per_step(run) / per_step(baseline);
+  if (finished(run) && finished(baseline))
+    ratio.at_own_dt = *ratio.at_equal_dt * own_steps(run) / own_steps(baseline);
+  return ratio;
 }
 
 std::string comparison_json(const ComparisonOrder& order, const Comparison& comparison) {
@@ -94,7 +100,8 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
   json["baseline"] = order.variation.values[0];
   json["common_dt [s]"] = optional_json(comparison.common_dt);
   if (order.reference)
-    json["reference"] = {{"file", order.reference->file}, {"xxh3_128", order.reference->hash}};
+    json["reference"] = {
+        {"file", order.reference->file}, {"copy", reference_copy}, {"xxh3_128", order.reference->hash}};
   json["meaning"] = {
       {"deviation", "run minus baseline, or run minus reference (linear between its rows, within its range)"},
       {"cost_at_equal_dt", "CPU seconds per step, over the baseline's; settling and writing not counted"},

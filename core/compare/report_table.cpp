@@ -13,6 +13,10 @@ std::string number_text(double value) {
   return fmt::format("{:.6g}", value);
 }
 
+std::string ratio_text(const std::optional<double>& ratio) {
+  return ratio ? fmt::format("{:.2f}", *ratio) : "-";
+}
+
 /// Columns as wide as their widest cell: the first one to the left, numbers to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
@@ -39,8 +43,8 @@ std::string runs_table(const Comparison& comparison) {
     const CostRatio ratio = cost_ratio(run, comparison.runs[0]);
     rows.push_back({run.value, fmt::format("{}", run.result.summary.steps),
                     number_text(run.result.summary.dt), number_text(run.own_dt),
-                    fmt::format("{:.3f}", run.result.stepping.cpu), fmt::format("{:.2f}", ratio.at_equal_dt),
-                    fmt::format("{:.2f}", ratio.at_own_dt),
+                    fmt::format("{:.3f}", run.result.stepping.cpu), ratio_text(ratio.at_equal_dt),
+                    ratio_text(ratio.at_own_dt),
                     fmt::format("{:.2g} %", 100 * run.result.summary.largest_residual_share),
                     run.settled_difference ? fmt::format("{:.2g}", *run.settled_difference) : "-",
                     name_of(run.result.end)});
@@ -90,7 +94,7 @@ std::string tolerances_table(const Comparison& comparison) {
                                   each.tolerance.quantity, comparison.runs[each.run].value,
                                   each.tolerance.against_reference ? "reference" : "baseline"),
                       found.measure, number_text(found.found), number_text(found.allowed),
-                      found.held ? "held" : "BROKEN"});
+                      found.verdict == ToleranceVerdict::broken ? "BROKEN" : name_of(found.verdict)});
     }
   }
   return rows.size() == 1 ? "" : fmt::format("\n{}", aligned(rows));

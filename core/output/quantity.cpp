@@ -30,11 +30,11 @@ constexpr std::array table{
     Quantity{"y", "m", [](const Motion& motion, Vec2 origin) { return origin.y + motion.position.y; },
              "position, with the scene's origin"},
     Quantity{"stress_xx", "Pa", [](const Motion& motion, Vec2) { return motion.stress_xx; },
-             "Cauchy stress, mean over the body; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
     Quantity{"stress_yy", "Pa", [](const Motion& motion, Vec2) { return motion.stress_yy; },
-             "Cauchy stress, mean over the body; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
     Quantity{"stress_xy", "Pa", [](const Motion& motion, Vec2) { return motion.stress_xy; },
-             "Cauchy stress, mean over the body; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
 };
 
 }  // namespace

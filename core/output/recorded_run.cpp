@@ -94,6 +94,10 @@ void step_to_the_end(const Course& course) {
 
 }  // namespace
 
+std::string time_in_words(const RunResult& result, double time) {
+  return fmt::format("t = {:.6g} s{}", time, result.never_settled ? " of settling" : "");
+}
+
 RunResult record_run(Simulation& simulation, const RunOrder& order) {
   RunResult result;
   const FolderLock mine(order.folder);
@@ -119,6 +123,7 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
   // Of a step that nobody was to look at, stresses and contacts are those of an earlier one.
   if (result.end != RunEnd::finished && simulation.started() && simulation.look_now()) recorder.record_last();
   result.time = simulation.time();
+  result.never_settled = simulation.scene().settle.has_value() && !simulation.started();
   result.history = recorder.take_series();
   result.blocks = simulation.block_count();
   result.elements = simulation.element_count();

@@ -51,8 +51,9 @@ struct RunResult {
   std::filesystem::path checkpoint;  ///< the last one written, if any
   double checkpoint_time = 0;        ///< s, its t
   bool out_of_wall_time = false;
-  double time = 0;  ///< s, how far it came
-  Series history;   ///< the rows of history.csv
+  double time = 0;             ///< s, how far it came
+  bool never_settled = false;  ///< it ended before t = 0: the times above are of settling
+  Series history;              ///< the rows of history.csv
   Elapsed settling, stepping, writing;
   double block_steps_per_second = 0;  ///< of wall time in the steps
   std::size_t blocks = 0, elements = 0;
@@ -60,6 +61,9 @@ struct RunResult {
   EnergyLedger ledger;
   std::string state_hash;
 };
+
+/// "t = 0.5 s", and whether that is of settling.
+std::string time_in_words(const RunResult& result, double time);
 
 /// Settles, runs to the end and writes history.csv, frames, resolved.json and run.json on the way. Numerical
 /// trouble and an interruption end the run with all files whole and the last state in them.

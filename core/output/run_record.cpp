@@ -134,7 +134,8 @@ std::string run_record(const Scene& scene, const RunOrder& order, const RunResul
   record["talus"] = TALUS_VERSION;
   record["end"] = name_of(result.end);
   if (result.end == RunEnd::stopped) record["trouble"] = result.trouble;
-  record["t [s]"] = result.time;
+  record["t [s]"] = result.never_settled ? 0 : result.time;
+  if (result.never_settled) record["settling_t [s]"] = result.time;
   if (order.from != nullptr) record["continued [s]"] = order.checkpoints->run.continued;
   record["scene"] = {
       {"file", scene.file}, {"title", scene.title}, {"xxh3_128", order.scene_hash}, {"files", scene.files}};

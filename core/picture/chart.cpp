@@ -69,6 +69,14 @@ std::vector<double> ticks(double low, double high) {
   return values;
 }
 
+/// Digits that tell ticks apart, which may lie far from zero.
+int digits_of(const std::vector<double>& ticks) {
+  if (ticks.size() < 2) return 6;
+  const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back())),
+               step = ticks[1] - ticks[0];
+  return std::clamp(2 + static_cast<int>(std::ceil(std::log10(largest / step))), 6, 15);
+}
+
 std::string chart_svg(const std::string& title, const std::string& x_label, const std::string& y_label,
                       const std::vector<Curve>& curves) {
   Range x, y;
@@ -84,17 +92,19 @@ std::string chart_svg(const std::string& title, const std::string& x_label, cons
 
   Svg svg(chart_width, chart_height, title);
   svg.text({left, 20}, title, Svg::Anchor::start, palette::ink, 14);
-  for (const double value : ticks(y.low, y.high)) {
+  const std::vector<double> y_ticks = ticks(y.low, y.high), x_ticks = ticks(x.low, x.high);
+  for (const double value : y_ticks) {
     const double at =
         chart_height - bottom - (value - y.low) / (y.high - y.low) * (chart_height - top - bottom);
     svg.line({{left, at}, {chart_width - right, at}}, {palette::grid, 1});
-    svg.text({left - 8, at + 4}, fmt::format("{:.6g}", value), Svg::Anchor::end, palette::faint);
+    svg.text({left - 8, at + 4}, fmt::format("{:.{}g}", value, digits_of(y_ticks)), Svg::Anchor::end,
+             palette::faint);
   }
-  for (const double value : ticks(x.low, x.high)) {
+  for (const double value : x_ticks) {
     const double at = left + (value - x.low) / (x.high - x.low) * (chart_width - left - right);
     svg.line({{at, chart_height - bottom}, {at, chart_height - bottom + 5}}, {palette::faint, 1});
-    svg.text({at, chart_height - bottom + 19}, fmt::format("{:.6g}", value), Svg::Anchor::middle,
-             palette::faint);
+    svg.text({at, chart_height - bottom + 19}, fmt::format("{:.{}g}", value, digits_of(x_ticks)),
+             Svg::Anchor::middle, palette::faint);
   }
   svg.line({{left, top}, {left, chart_height - bottom}, {chart_width - right, chart_height - bottom}},
            {palette::faint, 1});

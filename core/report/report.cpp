@@ -2,12 +2,12 @@
 
 #include "output/escaped.hpp"
 #include "output/input_error.hpp"
-#include "output/series.hpp"
 #include "output/shell_word.hpp"
 #include "output/vtu.hpp"
 #include "output/whole_file.hpp"
 #include "plugin/registry.hpp"
 #include "report/assets.hpp"
+#include "report/curves.hpp"
 #include "report/film.hpp"
 #include "report/html_page.hpp"
 
@@ -27,37 +27,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-constexpr std::size_t most_rows = 1500;  ///< of a curve on the page
-
-/// Six digits are more than a curve shows.
-Json short_number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
-}
-
-Json short_numbers(const std::vector<double>& values, std::size_t every) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i % every == 0 || i + 1 == values.size()) list.push_back(short_number(values[i]));
-  }
-  return list;
-}
-
-Json curves_of(const Series& series) {
-  const std::size_t every = (series.time.size() + most_rows - 1) / most_rows;
-  Json values = Json::array();
-  for (const std::vector<double>& column : series.values)
-    values.push_back(short_numbers(column, std::max<std::size_t>(every, 1)));
-  return {{"time", short_numbers(series.time, std::max<std::size_t>(every, 1))},
-          {"names", series.names},
-          {"values", values},
-          {"every", every}};
-}
-
-Json curves_in(const fs::path& file) {
-  return fs::exists(file) ? curves_of(read_series(file)) : Json(nullptr);
-}
 
 Json json_in(const fs::path& file) {
   Json json = Json::parse(read_whole_file(file), nullptr, false);
@@ -82,14 +51,18 @@ std::string packed(const std::string& bytes) {
 }
 
 Json contacts_json(const Film& film) {
-  Json count = Json::array(), slipping = Json::array(), normal = Json::array(), tangential = Json::array();
+  Json count = Json::array(), slipping = Json::array();
+  std::vector<double> normal, tangential;
   for (const ContactSums& sums : film.contacts) {
     count.push_back(sums.count);
     slipping.push_back(sums.slipping);
-    normal.push_back(short_number(sums.normal));
-    tangential.push_back(short_number(sums.tangential));
+    normal.push_back(sums.normal);
+    tangential.push_back(sums.tangential);
   }
-  return {{"count", count}, {"slipping", slipping}, {"normal", normal}, {"tangential", tangential}};
+  return {{"count", count},
+          {"slipping", slipping},
+          {"normal", short_numbers(normal)},
+          {"tangential", short_numbers(tangential)}};
 }
 
 /// Shapes as numbers of fixed width, in the order the page takes them out; then the motion.
@@ -104,7 +77,7 @@ Json film_json(const Film& film) {
   bytes += film.motion;
   return {{"frames", film.frames},
           {"every", film.every},
-          {"time", short_numbers(film.time, 1)},
+          {"time", short_numbers(film.time)},
           {"parts", film.part_body.size()},
           {"corners", film.x.size()},
           {"origin", {film.origin_x, film.origin_y}},
@@ -124,19 +97,41 @@ Json bodies_json(const Json& resolved) {
   return list;
 }
 
+/// Names, bodies, and points where frames have them.
 Json monitors_json(const Json& resolved) {
-  return resolved.contains("monitors") ? resolved["monitors"] : Json::array();
+  Json list = Json::array();
+  const std::vector<double> origin = resolved.value("origin", std::vector<double>{0, 0});
+  for (const Json& monitor : resolved.value("monitors", Json::array())) {
+    Json entry{{"name", monitor.at("name")}, {"body", monitor.at("body")}};
+    if (monitor.contains("point"))
+      entry["point"] = {origin.at(0) + monitor["point"].at(0).get<double>(),
+                        origin.at(1) + monitor["point"].at(1).get<double>()};
+    list.push_back(entry);
+  }
+  return list;
 }
 
-Json run_json(const fs::path& folder, const std::string& name) {
+std::optional<Series> series_in(const fs::path& file) {
+  return fs::exists(file) ? std::optional(read_series(file)) : std::nullopt;
+}
+
+Json curves_or_null(const std::optional<Series>& series) {
+  return series ? curves_of(*series) : Json(nullptr);
+}
+
+Json difference_json(const std::optional<Series>& series, const std::optional<Series>& from) {
+  return series && from ? curves_of(difference(*series, *from)) : Json(nullptr);
+}
+
+Json run_json(const fs::path& folder, const std::string& name, const std::optional<Series>& history) {
   const Json resolved = json_in(folder / "resolved.json");
   return {{"name", name},
           {"record", json_in(folder / "run.json")},
           {"bodies", bodies_json(resolved)},
           {"monitors", monitors_json(resolved)},
           {"names_libraries", resolved.contains("plugins") && !resolved["plugins"].empty()},
-          {"history", curves_in(folder / "history.csv")},
-          {"energy", curves_in(folder / "energy.csv")},
+          {"history", curves_or_null(history)},
+          {"energy", curves_or_null(series_in(folder / "energy.csv"))},
           {"film", film_json(read_film(folder))}};
 }
 
@@ -181,17 +176,32 @@ std::string command_of(const Json& page) {
   return command + settings_words(record, comparison.at("varied")) + plugin_words(page.at("runs"));
 }
 
+/// The runs of a comparison: each with its deviation from the first, and from a reference.
+void add_compared_runs(const fs::path& folder, Json& page) {
+  const Json& comparison = page["comparison"] = json_in(folder / "compare.json");
+  std::optional<Series> reference, baseline;
+  if (comparison.contains("reference"))
+    reference = read_series(folder / comparison.at("reference").at("copy").get<std::string>());
+  page["reference"] = curves_or_null(reference);
+  for (const Json& run : comparison.at("runs")) {
+    const fs::path in = folder / run.at("folder").get<std::string>();
+    const std::optional<Series> history = series_in(in / "history.csv");
+    Json entry = run_json(in, run.at("value"), history);
+    entry["from_baseline"] = difference_json(history, baseline);
+    entry["from_reference"] = difference_json(history, reference);
+    page["runs"].push_back(std::move(entry));
+    if (page["runs"].size() == 1) baseline = history;
+  }
+}
+
 Json page_json(const fs::path& folder) {
   Json page{{"comparison", nullptr}, {"reference", nullptr}, {"runs", Json::array()}};
   if (fs::exists(folder / "compare.json")) {
-    page["comparison"] = json_in(folder / "compare.json");
-    for (const Json& run : page["comparison"].at("runs"))
-      page["runs"].push_back(run_json(folder / run.at("folder").get<std::string>(), run.at("value")));
-    if (page["comparison"].contains("reference"))
-      page["reference"] = curves_in(page["comparison"].at("reference").at("file").get<std::string>());
+    add_compared_runs(folder, page);
   } else if (fs::exists(folder / "run.json")) {
     const Json record = json_in(folder / "run.json");
-    page["runs"].push_back(run_json(folder, record.at("scene").value("title", "")));
+    page["runs"].push_back(
+        run_json(folder, record.at("scene").value("title", ""), series_in(folder / "history.csv")));
   } else {
     throw InputError(fmt::format("'{}' holds neither run.json nor compare.json: it is no folder of results",
                                  folder.string()));

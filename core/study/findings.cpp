@@ -61,6 +61,11 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) 
   return across / along;
 }
 
+/// A step that is stated is rounded to whole steps per output: its order is in those that ran.
+double size_of(const StudyPlan& plan, std::size_t variation, std::size_t number, const StudyRun& run) {
+  return plan.pointers[variation] == "/time/dt" ? run.dt : number_of(plan, variation, number);
+}
+
 std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs,
                                            const std::vector<StudyFinding>& findings) {
   std::vector<ObservedOrder> orders;
@@ -70,12 +75,16 @@ std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vec
     for (const std::size_t run : family.runs) {
       if (!findings[run].error || !(*findings[run].error > 0)) continue;
       order.runs.push_back(run);
-      sizes.push_back(std::log(number_of(plan, family.variation, run)));
+      sizes.push_back(std::log(size_of(plan, family.variation, run, runs[run])));
       errors.push_back(std::log(*findings[run].error));
     }
     if (order.runs.size() < 2) continue;
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i)
-      order.orders.push_back((errors[i] - errors[i + 1]) / (sizes[i] - sizes[i + 1]));
+    // Runs of one size tell no order.
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
+      if (sizes[i] != sizes[i + 1])
+        order.orders.push_back((errors[i] - errors[i + 1]) / (sizes[i] - sizes[i + 1]));
+    }
+    if (order.orders.empty()) continue;
     order.fit = fitted_slope(sizes, errors);
     orders.push_back(std::move(order));
   }

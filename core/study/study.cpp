@@ -3,6 +3,7 @@
 #include "output/hash.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
+#include "output/run_record.hpp"
 #include "output/whole_file.hpp"
 
 #include <fmt/format.h>
@@ -36,9 +37,17 @@ bool files_unchanged(const Json& scene) {
   return true;
 }
 
-/// What the folder of a run tells, if it is the run that is asked for.
+/// Whether a run took the libraries that its scene would take now.
+bool same_libraries(const Json& record, const std::vector<Checkpoint::UsedLibrary>& libraries) {
+  std::vector<std::string> then, now;
+  for (const Json& library : record.value("plugins", Json::array())) then.push_back(library["xxh3_128"]);
+  for (const Checkpoint::UsedLibrary& library : libraries) now.push_back(library.hash);
+  return then == now;
+}
+
+/// What the folder of a run tells, if it is the run that is asked for, with these libraries.
 StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                const std::string& scene_hash) {
+                const std::string& scene_hash, const std::vector<Checkpoint::UsedLibrary>& libraries) {
   StudyRun run;
   run.folder = folder;
   if (!std::filesystem::exists(folder / "run.json")) return run;
@@ -48,7 +57,7 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
              settings = record.value("settings", Json::object());
   if (!scene.is_object() || !settings.is_object() || scene.value("xxh3_128", Json()) != scene_hash ||
       settings.value("set", Json()) != set_of(overrides) || record.value("end", Json()) == "interrupted" ||
-      !files_unchanged(scene))
+      !files_unchanged(scene) || !same_libraries(record, libraries))
     return run;
   run.done = true;
   run.end = record["end"];
@@ -133,20 +142,23 @@ class Runs {
     run.scene_hash = order_.scene_hash;
     run.clock = CpuClock::thread;
     run.interrupted = order_.interrupted;
-    StudyRun made = run_in(run.folder, run.overrides, run.scene_hash);
-    if (made.done) return made;
     try {
       const HeldScene held = read(run.overrides);
+      const std::vector<Checkpoint::UsedLibrary> libraries = hashed_libraries(held.scene);
+      const auto made = [&] { return run_in(run.folder, run.overrides, run.scene_hash, libraries); };
+      if (StudyRun before = made(); before.done) return before;
       prepare_output_folder(run.folder, true);
       Simulation simulation(held.scene, run.settings);
       record_run(simulation, run);
+      return made();
     } catch (const SceneError& error) {
-      made.end = "refused";
-      made.trouble = error.mistakes.empty() ? error.what() : error.mistakes[0].text();
-      made.done = true;
-      return made;
+      StudyRun refused;
+      refused.folder = run.folder;
+      refused.end = "refused";
+      refused.trouble = error.mistakes.empty() ? error.what() : error.mistakes[0].text();
+      refused.done = true;
+      return refused;
     }
-    return run_in(run.folder, run.overrides, run.scene_hash);
   }
 
   HeldScene read(const std::vector<Override>& overrides) {

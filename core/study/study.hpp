@@ -46,8 +46,8 @@ struct StudyOrder {
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< never called twice at a time
 };
 
-/// Makes all runs, each in a folder of its own; those that the folder holds already, of the same scene with
-/// the same values, are taken as they are. In the order of the plan.
+/// Makes all runs, each in a folder of its own; those that the folder holds already, of the same scene and
+/// libraries with the same values, are taken as they are. In the order of the plan.
 std::vector<StudyRun> make_runs(const StudyOrder& order);
 
 bool finished(const StudyRun& run);

@@ -41,6 +41,14 @@ TEST_CASE("A study runs every combination, lists what failed, and goes on where 
   CHECK(std::filesystem::last_write_time(scratch / "out/small-study/run_0001/run.json") == kept);
   CHECK(std::filesystem::exists(scratch / "out/small-study/run_0002/run.json"));
   CHECK(json_of(scratch / "out/small-study/study.json")["runs"][1]["rms"] == study["runs"][1]["rms"]);
+
+  // A law that has changed since makes its runs anew.
+  auto record = json_of(scratch / "out/small-study/run_0001/run.json");
+  const std::string hash = record["plugins"][0]["xxh3_128"];
+  record["plugins"][0]["xxh3_128"] = "another";
+  scratch.write("out/small-study/run_0001/run.json", record.dump());
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  CHECK(json_of(scratch / "out/small-study/run_0001/run.json")["plugins"][0]["xxh3_128"] == hash);
 }
 
 TEST_CASE("A study makes each run as often as it is asked to and takes the median of the cost",

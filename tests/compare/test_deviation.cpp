@@ -55,7 +55,7 @@ TEST_CASE("a value that is no number is the largest deviation", "[compare][devia
   CHECK(std::isnan(found->largest));
   CHECK(found->largest_time == 1);
   const Tolerance tolerance{"block", "speed", false, 100, {}, {}};
-  CHECK_FALSE(check(tolerance, *found)[0].held);
+  CHECK(check(tolerance, *found)[0].verdict == ToleranceVerdict::broken);
 }
 
 TEST_CASE("each limit of a tolerance is judged by magnitude", "[compare][deviation]") {
@@ -63,8 +63,13 @@ TEST_CASE("each limit of a tolerance is judged by magnitude", "[compare][deviati
   const auto checks = check({"block", "speed", false, 0.2, 0.1, 0.06}, found);
   REQUIRE(checks.size() == 3);
   CHECK(checks[0].measure == "largest");
-  CHECK_FALSE(checks[0].held);
-  CHECK(checks[1].held);
-  CHECK(checks[2].held);
+  CHECK(checks[0].verdict == ToleranceVerdict::broken);
+  CHECK(checks[1].verdict == ToleranceVerdict::held);
+  CHECK(checks[2].verdict == ToleranceVerdict::held);
   CHECK(check({"block", "speed", false, {}, {}, 0.01}, found).size() == 1);
+  // Of a part of the time, only the largest can be known to be too large.
+  const auto part = check({"block", "speed", false, 0.2, 0.09, 0.06}, found, true);
+  CHECK(part[0].verdict == ToleranceVerdict::broken);
+  CHECK(part[1].verdict == ToleranceVerdict::cut_short);
+  CHECK(part[2].verdict == ToleranceVerdict::cut_short);
 }

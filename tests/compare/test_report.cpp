@@ -90,6 +90,31 @@ TEST_CASE("a tolerance broken by a hair is broken", "[compare][report]") {
   CHECK_THAT(comparison_table(order, comparison), Contains("BROKEN") && Contains("block.speed"));
 }
 
+TEST_CASE("of runs that were cut short no tolerance is held, and no cost at their own step is told",
+          "[compare][report]") {
+  ComparisonOrder order = example_order();
+  Comparison comparison = example_comparison();
+  order.scenes[0].tolerances[0].largest = 0.5;
+  SECTION("stopped") {
+    comparison.runs[1].result.end = RunEnd::stopped;
+  }
+  SECTION("the baseline") {
+    comparison.runs[0].result.end = RunEnd::interrupted;
+  }
+  SECTION("before the first step") {
+    comparison.runs[1].result.end = RunEnd::interrupted;
+    comparison.runs[1].result.summary.steps = 0;
+  }
+  const bool stepped = comparison.runs[1].result.summary.steps > 0;
+  evaluate(order, comparison);
+  CHECK_FALSE(comparison.tolerances_held());
+  const auto json = nlohmann::json::parse(comparison_json(order, comparison));
+  CHECK(json["tolerances"][0]["verdict"] == "cut short");
+  CHECK(json["runs"][1]["cost_at_own_dt"].is_null());
+  CHECK(json["runs"][1]["cost_at_equal_dt"].is_null() == !stepped);
+  CHECK_THAT(comparison_table(order, comparison), Contains("cut short") && !Contains("nan"));
+}
+
 TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") {
   ComparisonOrder order = example_order();
   order.scenes[0].tolerances = {{"block", "speed", true, 0.5, {}, {}}};

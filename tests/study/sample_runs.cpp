@@ -1,5 +1,8 @@
 #include "study/sample_runs.hpp"
 
+#include <cstdlib>
+#include <utility>
+
 namespace talus {
 
 StudyRun run_of(double error, double cpu, double work, const std::string& end) {
@@ -23,6 +26,12 @@ StudyRun run_of(double error, double cpu, double work, const std::string& end) {
 const StudyPlan& sample_steps() {
   static const StudyPlan plan = grid({{"/time/dt", {"4e-3", "2e-3", "1e-3", "8e-3", "5e-4"}}});
   return plan;
+}
+
+std::vector<StudyRun> stepped(std::vector<StudyRun> runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    runs[i].dt = std::strtod(sample_steps().points[i].values[0].c_str(), nullptr);
+  return runs;
 }
 
 }  // namespace talus

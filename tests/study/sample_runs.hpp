@@ -14,4 +14,7 @@ StudyRun run_of(double error, double cpu, double work, const std::string& end = 
 /// Of 4e-3, 2e-3, 1e-3, 8e-3 and 5e-4 s.
 const StudyPlan& sample_steps();
 
+/// With these steps, one for each.
+std::vector<StudyRun> stepped(std::vector<StudyRun> runs);
+
 }  // namespace talus

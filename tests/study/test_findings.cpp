@@ -12,8 +12,8 @@ using namespace talus;
 using Catch::Matchers::Contains;
 
 TEST_CASE("A study's errors are those against its finest run, and give its front and its order", "[study]") {
-  const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
-                                   run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)};
+  const std::vector<StudyRun> runs = stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                                              run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
   const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
   CHECK(findings.reference == 4u);
   CHECK(*findings.runs[0].error == Approx(0.08));
@@ -38,6 +38,20 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK(json["runs"][3]["error [-]"].is_null());
   CHECK_THAT(study_csv(sample_steps(), runs, findings), Contains("run,/time/dt,end,error [-]"));
   CHECK_THAT(study_svg(sample_steps(), runs, findings), Contains("dt=2e-3"));
+}
+
+TEST_CASE("The order in the time step is that in the steps that ran", "[study]") {
+  // Of 4e-3 and 2e-3 s, rounded to whole steps per output, both ran with 2e-3.
+  std::vector<StudyRun> runs = stepped({run_of(0.04, 2, 20), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                                        run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
+  runs[0].dt = runs[1].dt;
+  const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
+  REQUIRE(findings.orders.size() == 1);
+  REQUIRE(findings.orders[0].orders.size() == 1);
+  CHECK(findings.orders[0].orders[0] == Approx(2));
+  CHECK(findings.orders[0].fit == Approx(2));
+  runs[2].dt = runs[1].dt;
+  CHECK(find_out(sample_steps(), runs, sample_column, std::nullopt).orders.empty());
 }
 
 TEST_CASE("A run that is dearer and farther is not on the front", "[study]") {

@@ -17,8 +17,8 @@ std::size_t times_in(const std::string& text, const std::string& part) {
 
 /// The three coarser steps, one that failed, and the reference.
 std::vector<StudyRun> sample_runs() {
-  return {run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40), run_of(0, 0.5, 5, "stopped"),
-          run_of(0, 9, 90)};
+  return stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40), run_of(0, 0.5, 5, "stopped"),
+                  run_of(0, 9, 90)});
 }
 
 std::string page_of(const StudyPlan& plan, const std::vector<StudyRun>& runs) {

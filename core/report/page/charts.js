@@ -16,14 +16,6 @@ function before(times, time) {
   return low;
 }
 
-function interpolated(times, values, time) {
-  if (!times.length || time < times[0] || time > times[times.length - 1]) return null;
-  const i = before(times, time);
-  if (i + 1 >= times.length || times[i] === time) return values[i];
-  if (values[i] === null || values[i + 1] === null) return null;
-  return values[i] + ((values[i + 1] - values[i]) * (time - times[i])) / (times[i + 1] - times[i]);
-}
-
 /** Rows over all times that any of the curves has. */
 function merged(curves) {
   const rows = new Map();
@@ -42,6 +34,13 @@ function merged(curves) {
 }
 
 const charts = [];
+
+/** A value on an axis with such a range: far from zero it takes more digits to tell it from its neighbours. */
+function onAxis(value, range, digits) {
+  const away = Math.ceil(Math.log10(Math.max(...range.map(Math.abs)) / (range[1] - range[0])));
+  if (value === null || !Number.isFinite(away) || away <= 0) return number(value, digits);
+  return String(+value.toPrecision(Math.min(15, digits + away)));
+}
 
 /** A card with a chart of curves {label, colour, stroke, time, values}; `choice` offers other sets of curves. */
 function addChart(title, unit, curves, choice = null) {
@@ -77,8 +76,8 @@ function addChart(title, unit, curves, choice = null) {
       gridLineColor: css('--line'),
       axisLineColor: css('--line'),
       axes: {
-        y: {axisLabelFormatter: (value) => number(value, 4)},
-        x: {axisLabelFormatter: (value) => number(value, 4)},
+        y: {axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.yAxisRange(0), 4)},
+        x: {axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.xAxisRange(), 4)},
       },
       highlightCircleSize: 3.5,
       highlightCallback: (event, time) => setTime(time, chart),
@@ -105,7 +104,7 @@ function legendOf(state) {
       `<span><i class="swatch" style="background:${series.color}"></i>${series.labelHTML}` +
       (state.x === undefined || series.y === undefined || series.y === null
         ? ''
-        : ` <b>${number(series.y, 5)}</b>`) +
+        : ` <b>${onAxis(series.y, state.dygraph.yAxisRange(0), 5)}</b>`) +
       '</span>',
   );
   return (state.x === undefined ? '' : `<span>t <b>${number(state.x, 5)} s</b></span>`) + words.join('');
@@ -154,38 +153,16 @@ function monitorCharts() {
 function deviationChart() {
   if (!comparison || (runs.length < 2 && !data.reference)) return;
   const names = runs[0].history.names;
-  const difference = (from, to, name, label, colour, stroke) => {
-    const p = from.names.indexOf(name),
-      q = to.names.indexOf(name);
-    if (p < 0 || q < 0) return [];
-    const values = from.time.map((time, i) => {
-      const other = interpolated(to.time, to.values[q], time);
-      return other === null || from.values[p][i] === null ? null : from.values[p][i] - other;
-    });
-    return [{label, colour, stroke, time: from.time, values}];
+  const curve = (of, name, label, index, stroke) => {
+    const column = of ? of.names.indexOf(name) : -1;
+    if (column < 0) return [];
+    return [{label, colour: '--run' + (index % 6), stroke, time: of.time, values: of.values[column]}];
   };
   const of = (column) => ({
     unit: `[${parsed(names[column]).unit}]`,
     curves: runs.flatMap((run, i) => [
-      ...(i > 0
-        ? difference(
-            run.history,
-            runs[0].history,
-            names[column],
-            `${run.label} − ${runs[0].label}`,
-            '--run' + (i % 6),
-          )
-        : []),
-      ...(data.reference
-        ? difference(
-            run.history,
-            data.reference,
-            names[column],
-            `${run.label} − reference`,
-            '--run' + (i % 6),
-            [3, 3],
-          )
-        : []),
+      ...curve(run.from_baseline, names[column], `${run.label} − ${runs[0].label}`, i, null),
+      ...curve(run.from_reference, names[column], `${run.label} − reference`, i, [3, 3]),
     ]),
   });
   const first = Math.max(

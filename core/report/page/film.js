@@ -142,6 +142,75 @@ class Film {
     return kind === 'displacement' ? this.farthest : this.largest[kind];
   }
 
+  /** Corners and weights that move as a point of a part does: those of a large triangle in it. */
+  weightsIn(part, x, y, share = 1) {
+    const begin = this.start[part],
+      corners = Array.from({length: this.start[part + 1] - begin}, (_, i) => begin + i);
+    const cross = (a, b, px, py) =>
+      (this.x[b] - this.x[a]) * (py - this.y[a]) - (this.y[b] - this.y[a]) * (px - this.x[a]);
+    const best = (size) => corners.reduce((p, q) => (size(q) > size(p) ? q : p));
+    const b = best((i) => Math.hypot(this.x[i] - this.x[begin], this.y[i] - this.y[begin]));
+    const c = best((i) => Math.abs(cross(begin, b, this.x[i], this.y[i])));
+    const all = cross(begin, b, this.x[c], this.y[c]),
+      at_c = cross(begin, b, x, y) / all,
+      at_b = -cross(begin, c, x, y) / all;
+    return [
+      [begin, share * (1 - at_b - at_c)],
+      [b, share * at_b],
+      [c, share * at_c],
+    ];
+  }
+
+  partsOf(body) {
+    return Array.from({length: this.parts}, (_, part) => part).filter((part) => this.body[part] === body);
+  }
+
+  /** Of a point in the first frame, without the origin: in the part that holds it, or the nearest one. */
+  sightOfPoint(body, x, y) {
+    const distance = (part) => {
+      let inside = false,
+        least = Infinity;
+      for (let i = this.start[part], end = this.start[part + 1], j = end - 1; i < end; j = i++) {
+        const [px, py, qx, qy] = [this.x[j], this.y[j], this.x[i], this.y[i]];
+        if (qy > y !== py > y && x < qx + ((y - qy) / (py - qy)) * (px - qx)) inside = !inside;
+        const length = (qx - px) ** 2 + (qy - py) ** 2;
+        const along = length > 0 ? ((x - px) * (qx - px) + (y - py) * (qy - py)) / length : 0;
+        const t = Math.min(1, Math.max(0, along));
+        least = Math.min(least, Math.hypot(px + t * (qx - px) - x, py + t * (qy - py) - y));
+      }
+      return inside ? 0 : least;
+    };
+    const parts = this.partsOf(body);
+    if (!parts.length) return [];
+    const distances = parts.map(distance);
+    return this.weightsIn(parts[distances.indexOf(Math.min(...distances))], x, y);
+  }
+
+  sightOfCentroid(body) {
+    const parts = this.partsOf(body).map((part) => {
+      let area = 0,
+        x = 0,
+        y = 0;
+      const [x0, y0] = this.centre[part];
+      for (let i = this.start[part], end = this.start[part + 1], j = end - 1; i < end; j = i++) {
+        const [px, py, qx, qy] = [this.x[j] - x0, this.y[j] - y0, this.x[i] - x0, this.y[i] - y0];
+        const twice = px * qy - qx * py;
+        area += twice;
+        x += (twice * (px + qx)) / 3;
+        y += (twice * (py + qy)) / 3;
+      }
+      return {part, area, x: x0 + x / area, y: y0 + y / area};
+    });
+    const whole = parts.reduce((sum, each) => sum + each.area, 0);
+    return parts.flatMap(({part, area, x, y}) => this.weightsIn(part, x, y, area / whole));
+  }
+
+  /** Where corners with weights are now. */
+  at(sight) {
+    if (!sight.length) return null;
+    return [this.nowX, this.nowY].map((now) => sight.reduce((sum, [corner, weight]) => sum + weight * now[corner], 0));
+  }
+
   partAt(x, y) {
     for (let part = this.parts - 1; part >= 0; --part) {
       let inside = false;

@@ -125,22 +125,25 @@ function draw() {
   drawTimes.push(performance.now() - begun);
 }
 
+/** Where a monitor looks: at its point, or at the centroid of its body. */
+function sightOf(film, run, monitor) {
+  if (!monitor.sight) {
+    const body = run.bodies.findIndex((each) => each.name === monitor.body);
+    monitor.sight = monitor.point
+      ? film.sightOfPoint(body, monitor.point[0] - film.origin[0], monitor.point[1] - film.origin[1])
+      : film.sightOfCentroid(body);
+  }
+  return monitor.sight;
+}
+
 function drawMonitors(film) {
   const run = runs[shown.filled];
   context.font = '12px system-ui, sans-serif';
   for (const monitor of run.monitors) {
-    const body = run.bodies.findIndex((each) => each.name === monitor.body),
-      part = film.body.indexOf(body);
-    if (part < 0) continue;
-    let x = 0,
-      y = 0;
-    for (let i = film.start[part]; i < film.start[part + 1]; ++i) {
-      x += film.nowX[i];
-      y += film.nowY[i];
-    }
-    const count = film.start[part + 1] - film.start[part];
-    const sx = (x / count + film.origin[0] - view.x) * view.scale,
-      sy = view.height - (y / count + film.origin[1] - view.y) * view.scale;
+    const at = film.at(sightOf(film, run, monitor));
+    if (!at) continue;
+    const sx = (at[0] + film.origin[0] - view.x) * view.scale,
+      sy = view.height - (at[1] + film.origin[1] - view.y) * view.scale;
     context.beginPath();
     context.arc(sx, sy, 3.5, 0, 2 * Math.PI);
     context.fillStyle = css('--card');

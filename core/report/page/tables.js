@@ -6,23 +6,26 @@ function tiles() {
     );
     byId('tiles').append(element('div', {class: 'card tile'}, title, numbers, element('small', {}, note)));
   };
-  const first =
-    (runs[0].history && runs[0].history.names.find((name) => parsed(name).quantity === 'speed')) || null;
-  const column = (run, name) => run.history.values[run.history.names.indexOf(name)];
-  if (first) {
-    const monitor = parsed(first).monitor;
+  const monitors = runs.map((run) =>
+    ((run.history && run.history.names) || [])
+      .map(parsed)
+      .filter(({quantity}) => quantity === 'speed')
+      .map(({monitor}) => monitor),
+  );
+  const column = (run, name) => run.history.names.indexOf(name);
+  const last = (run, name) => (column(run, name) < 0 ? NaN : run.history.values[column(run, name)].at(-1));
+  const note = (unit) => `${unit}, ${monitors[0].length > 1 ? 'the largest of all monitors' : monitors[0][0]}`;
+  const largest = (of) => runs.map((run, i) => Math.max(...monitors[i].map((monitor) => of(run, monitor))));
+  if (monitors[0].length) {
     add(
       'Largest speed',
-      runs.map((run) => Math.max(...column(run, first))),
-      `m/s, ${monitor}`,
+      largest((run, monitor) => run.history.largest[column(run, `${monitor}.speed [m/s]`)]),
+      note('m/s'),
     );
-    const along = (run, axis) => column(run, `${monitor}.u${axis} [m]`);
-    if (along(runs[0], 'x') && along(runs[0], 'y'))
-      add(
-        'Moved at the end',
-        runs.map((run) => Math.hypot(along(run, 'x').at(-1), along(run, 'y').at(-1))),
-        `m, ${monitor}`,
-      );
+    const moved = largest((run, monitor) =>
+      Math.hypot(last(run, `${monitor}.ux [m]`), last(run, `${monitor}.uy [m]`)),
+    );
+    if (moved.every(Number.isFinite)) add('Moved at the end', moved, note('m'));
   }
   add(
     'Time in the steps',

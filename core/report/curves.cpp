@@ -1,0 +1,89 @@
+#include "report/curves.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_rows = 1500;
+constexpr int least_digits = 6, most_digits = 17;
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  explicit Extent(const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  double largest() const { return low <= high ? std::max(std::abs(low), std::abs(high)) : 0; }
+  int digits() const {
+    if (!(low < high)) return most_digits;
+    const double before = std::max(0.0, std::ceil(std::log10(largest() / (high - low))));
+    return std::min(least_digits + static_cast<int>(before), most_digits);
+  }
+};
+
+std::vector<double> one_of(const std::vector<double>& values, std::size_t every) {
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % every == 0 || i + 1 == values.size()) kept.push_back(values[i]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Json short_numbers(const std::vector<double>& values) {
+  const int digits = Extent(values).digits();
+  Json list = Json::array();
+  for (const double value : values) {
+    list.push_back(std::isfinite(value)
+                       ? Json(std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr))
+                       : Json(nullptr));
+  }
+  return list;
+}
+
+Json curves_of(const Series& series) {
+  const std::size_t every = std::max<std::size_t>((series.time.size() + most_rows - 1) / most_rows, 1);
+  Json values = Json::array(), largest = Json::array();
+  for (const std::vector<double>& column : series.values) {
+    values.push_back(short_numbers(one_of(column, every)));
+    largest.push_back(Extent(column).largest());
+  }
+  return {{"time", short_numbers(one_of(series.time, every))},
+          {"names", series.names},
+          {"values", values},
+          {"largest", largest},
+          {"every", every}};
+}
+
+Series difference(const Series& series, const Series& from) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Series found;
+  found.time = series.time;
+  for (std::size_t column = 0; column < series.names.size(); ++column) {
+    const std::optional<std::size_t> other = from.column(series.names[column]);
+    if (!other) continue;
+    found.names.push_back(series.names[column]);
+    std::vector<double>& values = found.values.emplace_back();
+    for (std::size_t row = 0; row < series.time.size(); ++row) {
+      const std::optional<double> before = interpolate(from.time, from.values[*other], series.time[row]);
+      values.push_back(before ? series.values[column][row] - *before : none);
+    }
+  }
+  return found;
+}
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#include "report/curves.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+using namespace talus;
+
+TEST_CASE("Curves far from zero keep their shape, and thinned ones their largest value", "[report]") {
+  Series series;
+  series.names = {"far", "pulse", "still"};
+  series.values.resize(3);
+  for (int i = 0; i <= 3000; ++i) {
+    series.time.push_back(0.001 * i);
+    series.values[0].push_back(4e6 + 1e-3 * std::sin(0.01 * i));
+    series.values[1].push_back(i == 1501 ? -7.5 : 0);
+    series.values[2].push_back(500000.25);
+  }
+  const auto json = curves_of(series);
+  const std::size_t every = json["every"];
+  REQUIRE(every == 3);
+  REQUIRE(json["time"].size() == 1001);
+  for (std::size_t i = 0; i < 1001; ++i)
+    CHECK(json["values"][0][i].get<double>() == Approx(series.values[0][every * i]).epsilon(0).margin(1e-8));
+  CHECK(json["largest"][1] == 7.5);
+  CHECK(json["values"][2][0] == 500000.25);
+}
+
+TEST_CASE("Of a difference only what both have is told", "[report]") {
+  const Series base{{0, 1, 2}, {"a", "b"}, {{1e6, 1e6, 1e6}, {0, 2, 4}}};
+  const Series run{
+      {0, 0.5, 1.5, 3}, {"b", "c", "a"}, {{0, 1, 3.5, 9}, {1, 1, 1, 1}, {1e6, 1e6 + 1e-9, 1e6, 0}}};
+  const Series found = difference(run, base);
+  CHECK(found.time == run.time);
+  CHECK(found.names == std::vector<std::string>{"b", "a"});
+  CHECK(found.values[0][1] == 0);
+  CHECK(found.values[0][2] == 0.5);
+  CHECK(std::isnan(found.values[0][3]));
+  const auto json = curves_of(found);
+  CHECK(json["values"][0][3].is_null());
+  CHECK(json["values"][1][1].get<double>() == Approx(1e-9).epsilon(0.2));
+}
