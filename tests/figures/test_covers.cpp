@@ -1,5 +1,6 @@
 #include "figures/runs.hpp"
 #include "output/scratch.hpp"
+#include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -73,4 +74,28 @@ TEST_CASE("Incline: with springs at vertices a block of one element has two feet
     CHECK(many > found.block + 0.1);
     CHECK(many < 5.285220);  // the peak under a distributed pressure
   }
+}
+
+TEST_CASE("A body of many elements rubs alike whichever body is listed first", "[figures][covers]") {
+  // It lands on a corner, where the arcs of its two sides and of the floor do not share their ends.
+  const std::string floor =
+      R"({"name": "floor", "polygon": [[-4, -1], [4, -1], [4, 0], [-4, 0]], "material": "rock",
+      "fixed": true})";
+  const std::string body =
+      R"({"name": "b", "polygon": [[0, 0.001], [0.9, 0.5], [0.1, 1.1]], "material": "rock",
+      "velocity": [1, -1.5], "cover": {"model": "hexagonal", "size": 0.3}})";
+  const auto landed = [](const std::string& bodies, std::size_t which) {
+    WorkingScene text;
+    text.bodies = bodies;
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0.25)";
+    text.interface = R"("normal_stiffness": 3e7, "tangential_stiffness": 3e7, "friction_angle": 40,
+                        "normal_damping": 0.1, "tangential_damping": 0)";
+    text.time = R"({"end": 0.02, "dt": 1e-5})";
+    return run_to_end(text).body_motion(which).velocity;
+  };
+  const Vec2 last = landed(floor + "," + body, 1), first = landed(body + "," + floor, 0);
+  CHECK(last.x == Approx(first.x).epsilon(0).margin(1e-10));
+  CHECK(last.y == Approx(first.y).epsilon(0).margin(1e-10));
+  CHECK(last.x < 0.97);  // friction has acted
 }

@@ -25,7 +25,7 @@ Scene knocked_off(const std::string& cover, double softening) {
   text.bodies = box("base", -2, -1, 2, 0, R"("fixed": true)") + ", " +
                 box("a", -0.5, 0, 0.5, 1, R"("velocity": [0.3, 0.2], "cover": )" + cover) + ", " +
                 box("b", -0.5, 1, 0.5, 2, R"("cover": )" + cover);
-  text.time = R"({"end": 0.3, "safety": 0.1})";
+  text.time = R"({"end": 0.3, "safety": 0.05})";
   text.output = R"({"history": 0.001})";
   return text.read();
 }

@@ -302,7 +302,8 @@ class DistributedContact {
   }
 
   /// Eq. 38 with dl projected on s_c, so that both arcs, which share their ends, have one length and a pair
-  /// carried along together does not slip.
+  /// carried along together does not slip. Where strips end within an overlap the arcs do not share their
+  /// ends; the mean is the same whichever body comes first, and adds up to the whole along a boundary.
   void measure_arcs(std::uint32_t group, double dt) {
     double projected[2] = {0, 0}, moved[2] = {0, 0}, arc = 0;
     for (const Overlap& overlap : finder_.overlaps()) {
@@ -321,8 +322,10 @@ class DistributedContact {
         arc += length(end - start);
       }
     }
-    contact_length_ = std::abs(projected[1]);
-    const bool measurable = contact_length_ > 1e-9 * arc && std::abs(projected[0]) > 1e-9 * arc;
+    const double mean = std::abs(projected[0] / 2 - projected[1] / 2);
+    contact_length_ = among_strips_ ? mean : std::abs(projected[1]);
+    const bool measurable =
+        std::min({std::abs(projected[0]), std::abs(projected[1]), contact_length_}) > 1e-9 * arc;
     slip_velocity_ = measurable ? moved[1] / projected[1] - moved[0] / projected[0] : 0;
     slip_increment_ = slip_velocity_ * dt;
     if (!measurable) contact_length_ = 0;
