@@ -180,8 +180,12 @@ std::string command_of(const Json& page) {
 void add_compared_runs(const fs::path& folder, Json& page) {
   const Json& comparison = page["comparison"] = json_in(folder / "compare.json");
   std::optional<Series> reference, baseline;
-  if (comparison.contains("reference"))
-    reference = read_series(folder / comparison.at("reference").at("copy").get<std::string>());
+  if (comparison.contains("reference")) {
+    const Json& file = comparison.at("reference");
+    // Folders of before have no copy.
+    reference = read_series(file.contains("copy") ? folder / file.at("copy").get<std::string>()
+                                                  : fs::path(file.at("file").get<std::string>()));
+  }
   page["reference"] = curves_or_null(reference);
   for (const Json& run : comparison.at("runs")) {
     const fs::path in = folder / run.at("folder").get<std::string>();

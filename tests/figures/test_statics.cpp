@@ -104,3 +104,30 @@ TEST_CASE("Two contacts of one pair keep their friction apart, however near they
   CHECK(whole ==
         Approx(-1e6 / (2.7 * std::sqrt(2.0) * 1e9 * (1 + std::tan(std::numbers::pi / 6)))).epsilon(1e-3));
 }
+
+TEST_CASE(
+    "A contact that is bent around the foot of a valley keeps its friction where it parts and joins again",
+    "[figures][friction]") {
+  // A wedge, blunter by a hair than the valley it sits in, is pushed aside with 3 kN/m while its load changes
+  // between 10 and 40 kN/m, with which it has two contacts and one.
+  const double rise = 2 * std::tan(10 * std::numbers::pi / 180);
+  WorkingScene text;
+  text.cover = "block";
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e11, "poisson_ratio": 0.25)";
+  text.bodies = fmt::format(R"({{"name": "floor", "material": "rock", "fixed": true,
+      "polygon": [[-2, -1], [2, -1], [2, {0}], [0, 0], [-2, {0}]]}}, {{"name": "w", "material": "rock",
+      "polygon": [[-1, {1}], [0, 1e-5], [1, {1}], [1, {2}], [-1, {2}]]}})",
+                            rise, rise / 2, rise / 2 + 1);
+  text.rest = R"("damping": 200, "loads": [{"body": "w", "point": [0, 0.476], "force": [
+      {"scale": 3000, "time": [[0.1, 0], [0.2, 1]]},
+      {"scale": -1e4, "time": [[0, 0], [0.1, 4], [0.3, 4], [0.35, 1], [0.4, 1], [0.45, 4], [0.5, 4], [0.55, 1],
+        [0.6, 1], [0.65, 4], [0.7, 4], [0.75, 1], [0.8, 1], [0.85, 4]]}]}],)";
+  text.time = R"({"end": 1})";
+  text.output = R"({"history": 0.05})";
+  const Course course = run(text.read(), "w");
+  CHECK(course.displacement(0.25).x > 1e-6);
+  CHECK(course.displacement(1).x - course.displacement(0.25).x < 1e-6);
+}

@@ -51,14 +51,20 @@ class CarriedHistory {
 
   void carry_by_place(std::uint32_t i, PairReport& report) {
     const FrictionHistory& old = old_[i];
-    double total = 0;
-    for (std::uint32_t g = 0; g < spans_.size(); ++g) total += takes(g, i) ? spans_[g].size : 0;
+    const auto size_of_takers = [&](bool bent) {
+      double size = 0;
+      for (std::uint32_t g = 0; g < spans_.size(); ++g) size += takes(g, i, bent) ? spans_[g].size : 0;
+      return size;
+    };
+    double total = size_of_takers(false);
+    const bool bent = !(total > 0);
+    if (bent) total = size_of_takers(true);
     if (!(total > 0)) {
       report.slip_loss += old.stored;
       return;
     }
     for (std::uint32_t g = 0; g < spans_.size(); ++g) {
-      if (!takes(g, i)) continue;
+      if (!takes(g, i, bent)) continue;
       const double share = spans_[g].size / total;
       FrictionHistory& now = carried_[g];
       now.elastic += share * old.elastic;
@@ -69,8 +75,17 @@ class CarriedHistory {
     }
   }
 
-  /// Whether a contact takes over from one of before: the two are near enough, and neither has a nearer one
-  /// among those of the other time, unless one merged or split.
+  /// Whether a contact takes over from one of before: the two could be the same, and neither has a nearer one
+  /// among those of the other time, unless one merged or split. One that lies on no line, since a contact
+  /// bent around a corner came or went, is taken over by those near it that take over from no other.
+  bool takes(std::uint32_t now, std::uint32_t old, bool bent) const {
+    if (!bent) return takes(now, old);
+    if (!near(now, old)) return false;
+    for (std::uint32_t i = 0; i < old_.size(); ++i) {
+      if (i != old && takes(now, i)) return false;
+    }
+    return true;
+  }
   bool takes(std::uint32_t now, std::uint32_t old) const {
     if (!could_be(now, old)) return false;
     const double distance = apart(now, old);
@@ -86,11 +101,14 @@ class CarriedHistory {
   /// the one is nothing to the other. Along its line, or off it by no more than some six degrees, lies what
   /// was one with it.
   bool could_be(std::uint32_t now, std::uint32_t old) const {
+    if (!near(now, old)) return false;
     const GroupSpan& span = spans_[now];
     const Point from = Point{old_[old].x, old_[old].y} - span.centre;
-    if (length(from) > span.reach + old_[old].contact_length / 2) return false;
     if (spans_.size() == 1 && old_.size() == 1) return true;
     return std::abs(cross(span.along, from)) <= span.across + 0.1 * std::abs(dot(span.along, from));
+  }
+  bool near(std::uint32_t now, std::uint32_t old) const {
+    return apart(now, old) <= spans_[now].reach + old_[old].contact_length / 2;
   }
   double apart(std::uint32_t now, std::uint32_t old) const {
     return length(Point{old_[old].x, old_[old].y} - spans_[now].centre);
