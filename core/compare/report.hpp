@@ -16,7 +16,7 @@ struct CostRatio {
 };
 
 /// The reference as it was read, in the folder of the comparison.
-inline constexpr const char* reference_copy = "reference.csv";
+inline constexpr const char* reference_copy = "compare_reference.csv";
 
 CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline);
 

@@ -25,7 +25,7 @@ std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const char* name :
        {"history.csv", "resolved.json", "run.json", "frames.pvd", "energy.csv", "safety.csv", "safety.svg",
-        "report.html", "compare.csv", "compare.json", checkpoint_name}) {
+        "report.html", "compare.csv", "compare.json", "compare_reference.csv", checkpoint_name}) {
     for (const char* ending : {"", ".part"}) {
       if (fs::exists(folder / (std::string(name) + ending)))
         found.push_back(folder / (std::string(name) + ending));

@@ -56,6 +56,30 @@ TEST_CASE("each run keeps its own step where the time settings vary", "[apps][co
   CHECK(json["runs"][1]["steps"] == 2 * json["runs"][0]["steps"].get<int>());
 }
 
+TEST_CASE("a comparison keeps the reference it was made with, and overwrites no other", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const std::string curve = "t [s],block.uy [m]\n0,0\n1,0.125\n";
+  scratch.write("curve.csv", curve);
+  const std::vector<std::string> words{"compare",     "small.json", "--vary", "/contact/model=overlap_area",
+                                       "--reference", "curve.csv",  "--out",  "b"};
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  CHECK(read_whole_file(scratch / "b/compare_reference.csv") == curve);
+
+  // Its report asks for no file beyond the folder, wherever one stands.
+  scratch.write("curve.csv", "t [s],block.uy [m]\n0,0\n1,9\n");
+  const std::string page = read_whole_file(scratch / "b/report.html");
+  REQUIRE(call_talus(scratch / "b", {"report", "."}).code == 0);
+  CHECK(read_whole_file(scratch / "b/report.html") == page);
+
+  std::filesystem::create_directory(scratch / "mine");
+  scratch.write("mine/compare_reference.csv", "mine");
+  std::vector<std::string> elsewhere = words;
+  elsewhere.back() = "mine";
+  CHECK(call_talus(scratch.folder(), elsewhere).code == 2);
+  CHECK(read_whole_file(scratch / "mine/compare_reference.csv") == "mine");
+}
+
 TEST_CASE("a broken tolerance has its own exit code", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", scene_with("\"tolerances\": [{\"monitor\": \"block\", \"quantity\": \"uy\", "
