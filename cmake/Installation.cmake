@@ -13,9 +13,21 @@ install(FILES
   cmake/TalusPlugin.cmake
   DESTINATION ${talus_package})
 install(DIRECTORY scenes DESTINATION share/talus PATTERN __pycache__ EXCLUDE)
-install(FILES README.md CHANGELOG.md DESTINATION share/doc/talus)
 install(FILES LICENSE DESTINATION share/doc/talus RENAME copyright)
-install(DIRECTORY docs DESTINATION share/doc/talus FILES_MATCHING PATTERN *.md PATTERN *.svg)
+
+# Documents refer to each other, to scenes and to headers by where those stand in a checkout, so they stand alike here.
+file(GLOB_RECURSE documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS docs/*.md docs/*.svg docs/*.png)
+file(GLOB beside_what_they_describe RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+  contact_models/*/README.md plugins/*/README.md tests/benchmarks/README.md)
+foreach(document README.md CHANGELOG.md LICENSE ${documents} ${beside_what_they_describe})
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES ${document} DESTINATION share/doc/talus/${folder})
+endforeach()
+file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/linked/kit)
+file(CREATE_LINK ../../talus/scenes ${CMAKE_CURRENT_BINARY_DIR}/linked/scenes SYMBOLIC)
+file(CREATE_LINK ../../../../../include/talus ${CMAKE_CURRENT_BINARY_DIR}/linked/kit/talus SYMBOLIC)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/linked/scenes DESTINATION share/doc/talus)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/linked/kit/talus DESTINATION share/doc/talus/core/kit)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "the talus authors")

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <regex>
 #include <sstream>
 
 using namespace talus;
@@ -97,4 +99,23 @@ TEST_CASE("completion and manual are installed as the program writes them", "[ap
         installed.talus({"completion", "bash"}).out);
   CHECK(read_whole_file(installed.prefix() / "share/man/man1/talus.1") ==
         installed.talus({"help", "--man"}).out);
+}
+
+TEST_CASE("installed documents find all they refer to", "[apps][shell]") {
+  const Installation installed;
+  const std::filesystem::path documents = installed.prefix() / "share/doc/talus";
+  const std::regex link("\\]\\(([^)#\\s]+)");
+  int links = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(documents)) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = read_whole_file(entry.path());
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) {
+      const std::string target = (*at)[1];
+      if (target.starts_with("http")) continue;
+      ++links;
+      INFO(entry.path().string() << " refers to " << target);
+      CHECK(std::filesystem::exists(entry.path().parent_path() / target));
+    }
+  }
+  CHECK(links > 50);
 }
