@@ -98,6 +98,7 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
       {"file", order.scenes[0].file}, {"title", order.scenes[0].title}, {"xxh3_128", order.scene_hash}};
   json["varied"] = order.variation.pointer;
   json["baseline"] = order.variation.values[0];
+  if (!order.moments.empty()) json["moments [s]"] = order.moments;
   json["common_dt [s]"] = optional_json(comparison.common_dt);
   if (order.reference)
     json["reference"] = {

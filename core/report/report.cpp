@@ -173,6 +173,8 @@ std::string command_of(const Json& page) {
   std::string command = "talus compare " + scene + " --vary " + shell_word(varied);
   if (comparison.contains("reference"))
     command += " --reference " + shell_word(comparison.at("reference").at("file").get<std::string>());
+  for (const Json& moment : comparison.value("moments [s]", Json::array()))
+    command += fmt::format(" --at {}", moment.get<double>());
   return command + settings_words(record, comparison.at("varied")) + plugin_words(page.at("runs"));
 }
 

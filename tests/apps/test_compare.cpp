@@ -38,6 +38,8 @@ TEST_CASE("compare runs laws side by side from one geometry at one step", "[apps
   for (const char* file : {"overlap_area/run.json", "vertex_edge/history.csv", "vertex_edge/resolved.json"}) {
     CHECK(std::filesystem::exists(scratch / (std::string("out/small-compare/") + file)));
   }
+  CHECK_THAT(read_whole_file(scratch / "out/small-compare/report.html"),
+             Contains("--vary /contact/model=overlap_area,vertex_edge --at 0.1"));
   const Call again = call_talus(
       scratch.folder(), {"compare", "small.json", "--vary", "/contact/model=overlap_area,vertex_edge"});
   CHECK(again.code == 2);
