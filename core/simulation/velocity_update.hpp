@@ -24,7 +24,9 @@ inline double impose(const std::optional<double>& wanted, double mass, double va
   const double target = conditions.supports_driven ? *wanted : 0;
   const double reaction = mass * (target - value) / update.gain;
   work.external_work += reaction * value_before * conditions.dt_behind / 2;
-  work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
+  // Of a velocity that jumps all is booked, Δ(½mv²), however the two steps share the time of the impulse.
+  const double jump = (target - value_before) * (conditions.dt_behind - conditions.dt_ahead);
+  work.external_work_ahead += reaction * (target * conditions.dt_ahead / 2 + jump / 4);
   return target;
 }
 

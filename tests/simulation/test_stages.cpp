@@ -203,6 +203,24 @@ TEST_CASE("a body that is held under its weight and then let go keeps its balanc
   CHECK(simulation.summary().largest_residual_share <= 1e-6);
 }
 
+TEST_CASE("a support that a stage begins takes or gives the kinetic energy, whatever the steps are",
+          "[simulation][stages]") {
+  const auto cover = GENERATE(R"({"model": "rigid"})", R"({"model": "hexagonal", "size": 0.5})");
+  // Just after an output, on one, and just before one: what is left of the interval is one step.
+  const auto from = GENERATE(0.400, 0.402, 0.404);
+  const auto [begins_with, set, work] = GENERATE(table<const char*, const char*, double>(
+      {{"[0, 0]", R"("/bodies/0/drive": {"y": 2})", 4600}, {"[0, 2]", R"("/bodies/0/fix": ["y"])", -4600}}));
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, fmt::format(R"("velocity": {}, "cover": {})", begins_with, cover));
+  text.rest = fmt::format(R"("stages": [{{"name": "begin", "from": {}, "set": {{{}}}}}],)", from, set);
+  text.time = R"({"end": 0.6})";
+  text.output = R"({"history": 0.006})";
+  const Simulation simulation = run_to_end(text);
+  CAPTURE(cover, from, set);
+  CHECK(simulation.ledger().external_work == Approx(work).epsilon(1e-9));
+  CHECK(simulation.summary().largest_residual_share <= 1e-6);
+}
+
 TEST_CASE("ground that moves ever faster works on a free body by the mean of both ends of a step",
           "[simulation][stages]") {
   for (const char* cover :
