@@ -1,5 +1,7 @@
 #include "model/strips.hpp"
 
+#include "model/fragments.hpp"
+
 #include <talus/contact_model.hpp>
 
 #include <algorithm>
@@ -80,7 +82,7 @@ double distance_to_side(Vec2 point, const ReferenceSide& side) {
 
 /// Depth behind a side at which another part of the boundary is as near, seen from three points of the side:
 /// to the lines of other sides where they are met, and to every corner. Sides that compete with it have their
-/// say later.
+/// say later; of other fragments there is none behind it.
 double equal_depth(const Model& model, const Body& body, std::uint32_t side, const std::vector<char>& near) {
   const ReferenceSide own = reference_side(model, side);
   const Vec2 normal = inward(own.tangent);
@@ -105,8 +107,11 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, con
       const double place = dot(minus(along(from, depth, normal), there.start), there.tangent);
       if (place >= 0 && place <= there.length) least = std::min(least, depth);
     }
-    if (tip_at_start) least = std::min(least, distance_to_side(own.start, there) / 2);
-    if (tip_at_end) least = std::min(least, distance_to_side(own.end, there) / 2);
+    for (const auto& [is_tip_here, tip] :
+         {std::pair(tip_at_start, own.start), std::pair(tip_at_end, own.end)}) {
+      const double distance = is_tip_here ? distance_to_side(tip, there) : 0;
+      if (distance > rounding) least = std::min(least, distance / 2);
+    }
     if (near[model.previous_side[other] - body.side_begin] != 0) continue;
     const Vec2 way = minus(there.start, own.start);
     const double behind = dot(way, normal), along_side = dot(way, own.tangent);
@@ -170,6 +175,13 @@ void join_coincident(Corners& corners, std::size_t count, double depth) {
 
 void add_strips(Model& model, std::uint32_t index) {
   Body& body = model.bodies[index];
+  Fragments fragments(body);
+  for (auto element = model.elements.rbegin(); element != model.elements.rend() && element->body == index;
+       ++element)
+    fragments.add(*element);
+  std::vector<std::size_t> fragment;
+  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side)
+    fragment.push_back(fragments.of(model.sides[side].start.carrier.patch[0]));
   std::vector<double> depths;
   for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
     const double wanted = depth_share * model.side_size[side];
@@ -177,6 +189,8 @@ void add_strips(Model& model, std::uint32_t index) {
     find_competitors(model, side, wanted, true, competitors);
     find_competitors(model, side, wanted, false, competitors);
     std::vector<char> near(body.side_end - body.side_begin, 0);
+    const std::size_t own = fragment[side - body.side_begin];
+    std::ranges::transform(fragment, near.begin(), [&](std::size_t other) { return other != own ? 1 : 0; });
     near[side - body.side_begin] = near[model.next_side[side] - body.side_begin] = 1;
     near[model.previous_side[side] - body.side_begin] = 1;
     for (const std::uint32_t competitor : competitors) near[competitor - body.side_begin] = 1;

@@ -175,3 +175,48 @@ TEST_CASE("the halves of a body that was cut anywhere meet as two bodies do", "[
     }
   }
 }
+
+TEST_CASE("between the fragments of a body the contact force is minus the gradient of its energy",
+          "[contact][strips]") {
+  // A wedge in the side of an opening, its tip within an element: what lies in front of the tip is none of
+  // the strip's ground.
+  WorkingScene text;
+  text.law = "frictionless";
+  text.interface = R"("normal_stiffness": 1e10, "normal_damping": 0)";
+  text.bodies = R"({"name": "a", "material": "rock", "polygon": [[-3, -2], [3, -2], [3, 3], [-3, 3]],
+    "holes": [[[-1, -1], [1, -1], [1, 1], [-1, 1]]], "cover": {"model": "hexagonal", "size": 0.8},
+    "discontinuities": [{"points": [[-1, -0.3], [-1.7, 0.4], [-1, 0.5]]}]})";
+  const Scene scene = text.read();
+  const Model model = build_model(scene);
+  std::vector<Vec2> displacement(model.patch_star.size());
+  double value = 0.3;
+  const auto next = [&] { return (value = 3.9 * value * (1 - value)) - 0.5; };
+  for (Vec2& d : displacement) d = {4e-6 * next(), 4e-6 * next()};
+  std::vector<Vec2> force;
+  const auto stored = [&](const std::vector<Vec2>& at) {
+    MotionState motion(model);
+    motion.patch_displacement = at;
+    motion.move_boundary(model);
+    ContactStage contacts(scene, model, alone(), true);
+    contacts.find_pairs(model, motion, 0, {});
+    const double energy = contacts.evaluate(model, motion, {0, false, false}).stored;
+    force = motion.patch_force;
+    return energy;
+  };
+  stored(displacement);
+  const std::vector<Vec2> at_rest = force;
+  double largest = 0;
+  for (const Vec2 f : at_rest) largest = std::max(largest, std::hypot(f.x, f.y));
+  REQUIRE(largest > 500);
+  const double h = 1e-10;
+  for (std::size_t p = 0; p < displacement.size(); ++p) {
+    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      std::vector<Vec2> ahead = displacement, behind = displacement;
+      ahead[p].*axis += h;
+      behind[p].*axis -= h;
+      const double gradient = (stored(ahead) - stored(behind)) / (2 * h);
+      INFO("patch " << p << " at " << model.patch_star[p].x << ", " << model.patch_star[p].y);
+      CHECK(at_rest[p].*axis == Approx(-gradient).margin(1e-3 * largest));
+    }
+  }
+}
