@@ -447,7 +447,10 @@ void accelerate(const Block* blocks, const BodyForce* forces, const BlockUpdate&
     at.spin = between(before.spin, now.spin);
     at.rate = {between(before.rate.xx, now.rate.xx), between(before.rate.xy, now.rate.xy),
                between(before.rate.yx, now.rate.yx), between(before.rate.yy, now.rate.yy)};
-    if (update.damped) sums.damped += product(block, at, at);
+    if (update.damped) {
+      sums.damped[0] += product(block, at, before);
+      sums.damped[1] += product(block, at, now);
+    }
     if (!update.even_steps) {
       // The velocity mirrored about t_n: that of uneven steps would miss energy of first order.
       const BodyMotion& side = update.from_behind ? before : now;

@@ -75,7 +75,7 @@ struct BlockUpdate {
 struct BlockSums {
   double kinetic = 0;           ///< J/m, of uneven steps
   double momentum[2] = {0, 0};  ///< kg/s, m v₋
-  double damped = 0;            ///< J/m, twice the kinetic energy at t_n, where damped
+  double damped[2] = {0, 0};    ///< J/m, v·M v₋ and v·M v₊ with v at t_n, where damped
   // Of even steps, J/m: twice the kinetic energy of translation x, y, of rates xx, xy, yx, yy and of spins.
   double translation[2] = {0, 0}, strain[4] = {0, 0, 0, 0}, rotation = 0;
 

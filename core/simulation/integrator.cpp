@@ -124,9 +124,10 @@ void accelerate_whole(const Body& body, const BodyForce& force, const Support& s
   at_step = {middle.velocity, middle.rate};
   work.external_work += body.mass * gravity_work(conditions, before.velocity);
   if (conditions.damping > 0) {
-    const double power = 2 * conditions.damping * kinetic_energy(body, density, middle, middle);
-    work.damping_loss += power * conditions.dt_behind / 2;
-    work.damping_loss_ahead += power * conditions.dt_ahead / 2;
+    work.damping_loss +=
+        conditions.damping * kinetic_energy(body, density, middle, before) * conditions.dt_behind;
+    work.damping_loss_ahead +=
+        conditions.damping * kinetic_energy(body, density, middle, now) * conditions.dt_ahead;
   }
   if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_ahead / 2);
 }

@@ -73,12 +73,6 @@ double kinetic_at_step(const kernels::VelocitySums& sums, const StepConditions& 
   return (2 * sums.across - sums.after) / 2;
 }
 
-/// v·M v at t_n of own patches.
-double product_at_step(const kernels::VelocitySums& sums, const StepConditions& conditions) {
-  const double share = share_of_after(conditions), rest = 1 - share;
-  return rest * rest * sums.before + 2 * share * rest * sums.across + share * share * sums.after;
-}
-
 }  // namespace
 
 void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_t body,
@@ -121,10 +115,13 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                   kinetic_at_step(own.sums, conditions);
   work.external_work += gravity_work(conditions, momentum);
   if (conditions.damping > 0) {
-    const double power = conditions.damping * (mass.product(model, index, first, middle, middle) +
-                                               product_at_step(own.sums, conditions));
-    work.damping_loss += power * conditions.dt_behind / 2;
-    work.damping_loss_ahead += power * conditions.dt_ahead / 2;
+    const double rest = 1 - share;
+    const double behind =
+        mass.product(model, index, first, middle, before) + rest * own.sums.before + share * own.sums.across;
+    const double ahead =
+        mass.product(model, index, first, middle, after) + rest * own.sums.across + share * own.sums.after;
+    work.damping_loss += conditions.damping * behind * conditions.dt_behind / 2;
+    work.damping_loss_ahead += conditions.damping * ahead * conditions.dt_ahead / 2;
   }
 }
 

@@ -185,7 +185,7 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
                    (before_[i].rate.yx + now.rate.yx) / 2, (before_[i].rate.yy + now.rate.yy) / 2};
     taken.kinetic += kinetic_energy(body, density, before_[i], now);
     taken.damping_loss_ahead +=
-        conditions.damping * kinetic_energy(body, density, middle, middle) * conditions.dt_ahead;
+        conditions.damping * kinetic_energy(body, density, middle, now) * conditions.dt_ahead;
     island.strain_energy += parts.deformation.stored_in(model, b);
     ++island.bodies;
     island_[b] = island.number;
