@@ -31,6 +31,20 @@ double Table::operator()(double where) const {
   return (1 - share) * value_[i] + share * value_[i + 1];
 }
 
+double Table::over(const StepSpan& span) const {
+  auto point = std::upper_bound(at_.begin(), at_.end(), span.begin);
+  if (point == at_.end() || *point >= span.end) return (*this)(span.time);
+  double from = span.begin, value = (*this)(from), area = 0;
+  const auto add = [&](double to, double value_there) {
+    area += (to - from) * (value / 2 + value_there / 2);
+    from = to, value = value_there;
+  };
+  for (; point != at_.end() && *point < span.end; ++point)
+    add(*point, value_[static_cast<std::size_t>(point - at_.begin())]);
+  add(span.end, (*this)(span.end));
+  return area / (span.end - span.begin);
+}
+
 double Table::antiderivative(double where) const {
   if (!(where > at_.front())) return value_.front() * (where - at_.front());
   if (where >= at_.back()) return area_.back() + value_.back() * (where - at_.back());
@@ -46,6 +60,13 @@ double Function::operator()(double time, Vec2 at) const {
   double sum = 0;
   for (const Product& product : terms)
     sum += place_factor(product, at) * (product.time ? (*product.time)(time) : 1);
+  return sum;
+}
+
+double Function::over(const StepSpan& span, Vec2 at) const {
+  double sum = 0;
+  for (const Product& product : terms)
+    sum += place_factor(product, at) * (product.time ? product.time->over(span) : 1);
   return sum;
 }
 

@@ -8,6 +8,14 @@
 
 namespace talus {
 
+/// A time and the half steps around it, s: what is read at that time acts over them.
+struct StepSpan {
+  double begin, time, end;
+
+  StepSpan(double time_, double dt_behind, double dt_ahead)
+      : begin(time_ - dt_behind / 2), time(time_), end(time_ + dt_ahead / 2) {}
+};
+
 /// Piecewise linear between points, constant beyond the first and the last.
 class Table {
  public:
@@ -15,6 +23,9 @@ class Table {
   Table(std::vector<double> at, std::vector<double> value);
 
   double operator()(double where) const;
+  /// The value at the time of a step; where a point lies within the span the mean over it, so that nothing
+  /// shorter than a step is lost.
+  double over(const StepSpan& span) const;
   /// ∫ from 0 to `where`, exact but for rounding.
   double integral(double where) const;
   const std::vector<double>& points() const { return at_; }
@@ -40,6 +51,7 @@ struct Function {
   std::vector<Product> terms;
 
   double operator()(double time, Vec2 at) const;
+  double over(const StepSpan& span, Vec2 at) const;  ///< see Table::over()
   /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
   double integral(double time, Vec2 at) const;
   bool zero() const { return terms.empty(); }

@@ -94,22 +94,22 @@ void Loads::replace(Loads next) {
   next_ = std::make_unique<Loads>(std::move(next));
 }
 
-void Loads::apply(MotionState& motion, double time, double dt) {
+void Loads::apply(MotionState& motion, const StepSpan& span, double dt) {
   if (next_) {
     // The old loads end at t: they worked over the first half of the last step, and their supports let go.
     acting_ = false;
     const std::unique_ptr<Loads> next = std::move(next_);
-    apply(motion, time, dt);
+    apply(motion, span, dt);
     const double done = work_, let_go = stored_;
     *this = std::move(*next);
-    apply(motion, time, dt);
+    apply(motion, span, dt);
     work_ += done + stored_ - let_go;
     return;
   }
   stored_ = applied_ = 0;
-  apply_points(motion, time, dt);
-  apply_surface_loads(motion, time, dt);
-  apply_supports(motion, time);
+  apply_points(motion, span, dt);
+  apply_surface_loads(motion, span, dt);
+  apply_supports(motion, span.time);
   apply_absorbing(motion, dt);
 }
 
@@ -135,9 +135,10 @@ void Loads::work_through(Worker& worker, Vec2 force, Vec2 moved) {
   worker.last_force = force;
 }
 
-void Loads::apply_points(MotionState& motion, double time, double dt) {
+void Loads::apply_points(MotionState& motion, const StepSpan& span, double dt) {
   for (Point& point : points_) {
-    const Vec2 force{point.force[0](time, point.scene_point), point.force[1](time, point.scene_point)};
+    const Vec2 force{point.force[0].over(span, point.scene_point),
+                     point.force[1].over(span, point.scene_point)};
     const Vec2 speed = motion.velocity(point.at);
     work_through(point.worker, force, {speed.x * dt, speed.y * dt});
     if (!acting_) continue;
@@ -146,17 +147,17 @@ void Loads::apply_points(MotionState& motion, double time, double dt) {
   }
 }
 
-void Loads::apply_surface_loads(MotionState& motion, double time, double dt) {
+void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, double dt) {
   for (SurfacePoint& point : surface_points_) {
     const SurfaceLoad& load = surface_loads_[point.load];
     const BoundarySide& side = sides_[point.at.side];
     const Vec2 start = side.start.reference, end = side.end.reference;
     const double length = point.at.share * size_of({end.x - start.x, end.y - start.y});
-    Vec2 force{length * load.traction[0](time, point.at.scene_point),
-               length * load.traction[1](time, point.at.scene_point)};
+    Vec2 force{length * load.traction[0].over(span, point.at.scene_point),
+               length * load.traction[1].over(span, point.at.scene_point)};
     if (!load.pressure.zero()) {
       // Towards the body on the present side: the side turned by 90° to the left.
-      const double pressure = point.at.share * load.pressure(time, point.at.scene_point);
+      const double pressure = point.at.share * load.pressure.over(span, point.at.scene_point);
       const Vec2 from = motion.displacement(side.start), to = motion.displacement(side.end);
       force.x -= pressure * (end.y + to.y - start.y - from.y);
       force.y += pressure * (end.x + to.x - start.x - from.x);

@@ -20,8 +20,8 @@ class Loads {
   /// From now on other loads act; what the present ones still did and held is booked at the next apply().
   void replace(Loads next);
 
-  /// Adds the loads at time t. Velocities serve the work they have done since t − dt.
-  void apply(MotionState& motion, double time, double dt);
+  /// Adds the loads of a step. Velocities serve the work they have done in the step behind, of length dt.
+  void apply(MotionState& motion, const StepSpan& span, double dt);
 
   void exchange(Archive& archive);  ///< between steps
 
@@ -74,8 +74,8 @@ class Loads {
   void visit_sides(const Scene& scene, const Model& model, std::uint32_t body, std::uint32_t surface_class,
                    const Functions& functions, const Visit& visit);
   void work_through(Worker& worker, Vec2 force, Vec2 moved);
-  void apply_points(MotionState& motion, double time, double dt);
-  void apply_surface_loads(MotionState& motion, double time, double dt);
+  void apply_points(MotionState& motion, const StepSpan& span, double dt);
+  void apply_surface_loads(MotionState& motion, const StepSpan& span, double dt);
   void apply_supports(MotionState& motion, double time);
   void apply_absorbing(MotionState& motion, double dt);
   void add_on_side(MotionState& motion, const SideShare& at, Vec2 force);

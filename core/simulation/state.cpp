@@ -103,8 +103,7 @@ void Simulation::State::forces() {
   motion.clear_forces(model);
   speeds = blocks.follow(model, contacts.drift(), motion);  // Eq. 11
   check_numbers();
-  const Vec2 pull = gravity();
-  if (sleep && !settling) sleep->watch(time, pull, workers, sleeping_parts());
+  if (sleep && !settling) sleep->watch(time, gravity(), workers, sleeping_parts());
   profile.enter(Phase::neighbours);
   if (contacts.find_pairs(model, motion, dt_behind, speeds)) vote_again();  // Table 1, 1
   const bool may_sleep_now = may_sleep();
@@ -112,7 +111,8 @@ void Simulation::State::forces() {
   profile.enter(Phase::contacts);
   const double interface_work = evaluate_contacts();  // Eqs. 28–48
   profile.enter(Phase::loads);
-  loads.apply(motion, settling ? 0 : time, dt_behind);  // Eqs. 19–20
+  const Vec2 pull = gravity();
+  loads.apply(motion, step_span(), dt_behind);  // Eqs. 19–20
   const Damping& how = settling ? scene.settle->damping : stage.damping;
   const bool at_once = !forces_first(how);
   profile.enter(Phase::materials);
@@ -196,9 +196,13 @@ double Simulation::State::energy_floor() const {
 /// Of the frame that moves with the ground.
 Vec2 Simulation::State::gravity() const {
   if (stage.base_acceleration[0].zero() && stage.base_acceleration[1].zero()) return stage.gravity;
-  const double now = settling ? 0 : time;
-  return {stage.gravity.x - stage.base_acceleration[0](now, {}),
-          stage.gravity.y - stage.base_acceleration[1](now, {})};
+  return {stage.gravity.x - stage.base_acceleration[0].over(step_span(), {}),
+          stage.gravity.y - stage.base_acceleration[1].over(step_span(), {})};
+}
+
+/// While the scene settles all that depends on time is as at the start.
+StepSpan Simulation::State::step_span() const {
+  return settling ? StepSpan(0, 0, 0) : StepSpan(time, dt_behind, plan.dt);
 }
 
 bool Simulation::State::settled() const {

@@ -103,6 +103,7 @@ struct Simulation::State {
   void begin_due_stages();
   void enter_stage(const StageSettings& next);
   Vec2 gravity() const;
+  StepSpan step_span() const;
   bool settled() const;
   double evaluate_contacts();
   void touch_as_drawn();

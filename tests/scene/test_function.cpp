@@ -92,3 +92,33 @@ TEST_CASE("a function without terms is zero", "[scene]") {
   CHECK(Function{}.integral(3, {1, 2}) == 0);
   CHECK_FALSE(of_time(sample_table()).zero());
 }
+
+TEST_CASE("what is shorter than a step acts with its mean over the step", "[scene][function]") {
+  const Table pulse{{1, 1.001, 1.002}, {0, 500, 0}};  // area 0.5
+  double sum = 0;
+  for (int n = 0; n <= 20; ++n) {
+    const StepSpan span(n * 0.1, n > 0 ? 0.1 : 0, 0.1);
+    sum += pulse.over(span) * (span.end - span.begin);
+  }
+  CHECK(sum == Approx(0.5).epsilon(1e-12));
+
+  // Steps of two lengths, of which some hold several points and some none.
+  const Table table = sample_table();
+  double time = -3, behind = 0;
+  for (int n = 0; time < 4; ++n) {
+    const double ahead = n % 3 == 0 ? 4.1 : 0.07;
+    const StepSpan span(time, behind, ahead);
+    const double share = table.over(span);
+    double exact = 0;
+    const int parts = 4000;
+    for (int i = 0; i < parts; ++i) {
+      const double at = span.begin + (span.end - span.begin) * (i + 0.5) / parts;
+      exact += table(at) / parts;
+    }
+    if (share != table(time)) CHECK(share == Approx(exact).epsilon(1e-4).margin(1e-6));
+    time += ahead, behind = ahead;
+  }
+  CHECK(table.over({-1, 0.5, 0.5}) == table(-1));  // linear over the span: the value to the bit
+  CHECK(table.over({5, 1, 1}) == table(5));
+  CHECK(of_time(table, 2).over({0, 1, 1}, {}) == Approx(2 * (4.5 * 0.5 + (5 - 0.5) * 0.5)).epsilon(1e-12));
+}

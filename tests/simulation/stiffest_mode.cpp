@@ -96,7 +96,7 @@ class Oscillator {
     contacts.find_pairs(model_, motion, 0, {});
     contacts.evaluate(model_, motion, {1, true, false});
     Deformation(scene_, model_, alone()).apply(model_, motion, 1);
-    Loads(scene_, settings_of(scene_), model_).apply(motion, 0, 0);
+    Loads(scene_, settings_of(scene_), model_).apply(motion, {0, 0, 0}, 0);
     return motion.forces;
   }
 
