@@ -7,6 +7,7 @@
 #include "output/series.hpp"
 #include "output/whole_file.hpp"
 #include "picture/chart.hpp"
+#include "safety/collapse.hpp"
 #include "scene/nearest.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
@@ -33,18 +34,25 @@ bool was_stopped(const ReducedRun& run) {
 
 /// A run that was stopped says nothing of how far what moved.
 std::string safety_csv(const Scene& scene, const Safety& safety) {
-  std::string text = "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by\n";
+  std::string text =
+      "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by,lasted [s],still "
+      "moving\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
-    std::string moving;
-    for (const std::size_t body : run.moving) moving += (moving.empty() ? "" : " ") + scene.bodies[body].name;
+    const auto names = [&](const std::vector<std::size_t>& bodies) {
+      std::string text_of;
+      for (const std::size_t body : bodies) text_of += (text_of.empty() ? "" : " ") + scene.bodies[body].name;
+      return text_of;
+    };
     const bool stopped = was_stopped(run);
     const std::string fields[] = {fmt::format("{}", run.factor),
                                   run.collapsed ? "1" : "0",
                                   stopped ? "" : fmt::format("{}", run.displacement),
                                   stopped ? "" : scene.bodies[run.body].name,
                                   stopped ? "" : fmt::format("{}", run.kinetic),
-                                  moving,
-                                  run.trouble};
+                                  names(run.moving),
+                                  run.trouble,
+                                  stopped ? "" : fmt::format("{}", run.lasted),
+                                  names(run.moving_little)};
     text += csv_line(fields) + "\n";
   }
   return text;
@@ -82,22 +90,63 @@ void say_bounds(const Safety& safety) {
              known(safety.falls));
 }
 
+std::vector<std::string> names_of(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  std::vector<std::string> names;
+  for (const std::size_t body : bodies) names.push_back(scene.bodies[body].name);
+  return names;
+}
+
+const ReducedRun& run_at(const Safety& safety, double factor) {
+  return *std::ranges::find(safety.runs, factor, &ReducedRun::factor);
+}
+
+/// What makes a factor that was found less sure than it looks.
+void warn_of_run(const Scene& scene, const Safety& safety) {
+  if (!safety.stands) return;
+  const ReducedRun& stood = run_at(safety, *safety.stands);
+  if (stood.moving_little.empty()) return;
+  print_warning(
+      fmt::format("at {:.4g} still moving after {:.4g} s, too slowly to call it a collapse: {}; "
+                  "the factor may be less: give it a longer /time/end",
+                  stood.factor, stood.lasted, listed(names_of(scene, stood.moving_little))));
+}
+
+void warn_of_scene(const Scene& scene) {
+  if (!scene.stages.empty())
+    print_warning("the stages of the scene are left out: strength is reduced from the start");
+  if (!scene.settle)
+    print_warning("the scene has no settle stage: what it does to come to rest counts as motion");
+  std::vector<std::string> moving, driven;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.velocity.x != 0 || body.velocity.y != 0 || body.angular_velocity != 0)
+      moving.push_back(body.name);
+  }
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (is_driven(scene, body)) driven.push_back(scene.bodies[body].name);
+  }
+  if (!moving.empty()) print_warning(fmt::format("velocities at the start are left out: {}", listed(moving)));
+  if (!driven.empty())
+    print_warning(
+        fmt::format("motion along axes along which the scene drives a body does not count, that of others "
+                    "that it takes with it does: {}",
+                    listed(driven)));
+}
+
 void say_result(const Scene& scene, const Safety& safety) {
   if (safety.interrupted) {
     say_bounds(safety);
     return;
   }
+  warn_of_run(scene, safety);
   if (const auto factor = safety.factor()) {
     fmt::print("factor of safety {:.4g}: stands at {:.4g}, collapses at {:.4g}\n", *factor, *safety.stands,
                *safety.falls);
-    const auto fallen = std::find_if(safety.runs.begin(), safety.runs.end(),
-                                     [&](const ReducedRun& run) { return run.factor == *safety.falls; });
-    std::vector<std::string> names;
-    for (const std::size_t body : fallen->moving) names.push_back(scene.bodies[body].name);
-    if (was_stopped(*fallen))
+    const ReducedRun& fallen = run_at(safety, *safety.falls);
+    const std::vector<std::string> names = names_of(scene, fallen.moving);
+    if (was_stopped(fallen))
       print_warning(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",
-                                fallen->factor, fallen->trouble));
-    if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen->factor, listed(names));
+                                fallen.factor, fallen.trouble));
+    if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen.factor, listed(names));
   } else if (safety.falls) {
     fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
                1 / *safety.falls);
@@ -115,7 +164,9 @@ Usage usage_of_safety() {
       "of\n"
       "materials that have them, are divided by a factor until the scene collapses, by bisection, each time "
       "from the\n"
-      "same settled geometry and for as long as the scene lasts. Writes safety.csv and safety.svg to a "
+      "same settled geometry and for as long as the scene lasts, up to eight times as long where that does "
+      "not "
+      "tell. Writes safety.csv and safety.svg to a "
       "folder:\n"
       "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
       "SCENE",
@@ -150,10 +201,7 @@ int safety_command(const Words& words) {
   const Scene scene =
       read_scene_of(file, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
-  if (!scene.stages.empty())
-    print_warning("the stages of the scene are left out: strength is reduced from the start");
-  if (!scene.settle)
-    print_warning("the scene has no settle stage: what it does to come to rest counts as motion");
+  warn_of_scene(scene);
   prepare_output_folder(folder, given->count("overwrite") != 0);
 
   const std::atomic<bool>* asked_to_stop = watch_for_interrupts();

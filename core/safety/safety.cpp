@@ -1,20 +1,23 @@
 #include "safety/safety.hpp"
 
 #include "output/input_error.hpp"
+#include "safety/collapse.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
 namespace talus {
 namespace {
 
-constexpr double seen = 1e-3;    ///< share of the width
-constexpr double lost = 0.05;    ///< share of the width: whatever stops further on has failed, too
 constexpr double stride = 1.25;  ///< of the factor, while neither bound is known
+constexpr int longest = 8;       ///< times as long as the scene says a run goes on to be told
+/// A body that goes on so slowly that a run would have to be so many times as long once more is named.
+constexpr double last_look = 4;
 
 /// Divides what of these values is strength; returns whether any is.
 bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std::vector<double>& values) {
@@ -42,51 +45,17 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
   return reduced;
 }
 
-/// Of each body, its vertices.
-using Shape = std::vector<std::vector<Motion>>;
-
-Shape shape_of(const Simulation& simulation) {
-  Shape shape;
-  const Scene& scene = simulation.scene();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    std::vector<Motion>& vertices = shape.emplace_back();
-    for (const Vec2 vertex : scene.bodies[i].outer.vertices)
-      vertices.push_back(simulation.point_motion(i, vertex));
-  }
-  return shape;
-}
-
-/// Of each body: how far the vertex has moved that moved farthest, and the largest speed of one.
-struct Instant {
-  std::vector<double> moved, speed;
-};
-
-Instant instant_of(const Simulation& simulation, const Shape& from) {
-  Instant instant;
-  const Shape now = shape_of(simulation);
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    double moved = 0, speed = 0;
-    for (std::size_t k = 0; k < now[i].size(); ++k) {
-      const Vec2 p = now[i][k].position, q = from[i][k].position, v = now[i][k].velocity;
-      moved = std::max(moved, std::hypot(p.x - q.x, p.y - q.y));
-      speed = std::max(speed, std::hypot(v.x, v.y));
-    }
-    instant.moved.push_back(moved);
-    instant.speed.push_back(speed);
-  }
-  return instant;
-}
-
 class Reduction {
  public:
   Reduction(const Scene& scene, const SafetySettings& settings) : scene_(scene), settings_(settings) {
     scene_.output.frames.reset();
     scene_.output.history = scene_.time.end / 2;
+    scene_.time.end *= longest;
     run_.threads = settings.threads;
     Simulation whole(with_reduced_strength(scene_, 1), run_);
     settled_ = whole.settle(settings_.interrupted);
     geometry_ = whole.geometry();
-    settled_shape_ = shape_of(whole);
+    pieces_.emplace(whole);
   }
 
   bool settled() const { return settled_; }
@@ -99,13 +68,7 @@ class Reduction {
     if (scene_.settle) simulation.take_geometry(geometry_);
     try {
       if (!simulation.settle(settings_.interrupted)) return std::nullopt;
-      const auto advance = [&] {
-        return simulation.advance(settings_.interrupted) && simulation.history_due();
-      };
-      if (!advance() || !advance()) return std::nullopt;
-      const Instant middle = instant_of(simulation, settled_shape_);
-      if (!advance()) return std::nullopt;
-      judge(simulation, middle, result);
+      if (!follow(simulation, result)) return std::nullopt;
     } catch (const NumericalTrouble& trouble) {
       result.trouble = trouble.what();
       result.collapsed = true;
@@ -114,28 +77,56 @@ class Reduction {
   }
 
  private:
-  void judge(const Simulation& simulation, const Instant& middle, ReducedRun& result) const {
-    const Instant end = instant_of(simulation, settled_shape_);
-    for (std::size_t i = 0; i < end.moved.size(); ++i) {
-      if (scene_.bodies[i].fixed) continue;
+  /// Until it is clear whether it stands, each time twice as long as before. False if it was interrupted.
+  bool follow(Simulation& simulation, ReducedRun& result) const {
+    const auto advance = [&](int halves) {
+      for (int i = 0; i < halves; ++i) {
+        if (!simulation.advance(settings_.interrupted) || !simulation.history_due()) return false;
+      }
+      return true;
+    };
+    if (!advance(2)) return false;  // t = 0 and half of the time
+    PieceMotions middle = pieces_->motions(simulation);
+    for (int times = 1;; times *= 2) {
+      if (!advance(times)) return false;
+      PieceMotions end = pieces_->motions(simulation);
+      const double to_tell = judge(middle, end, static_cast<double>(longest) / times, result);
+      result.lasted = simulation.time();
+      result.kinetic = simulation.ledger().kinetic;
+      if (result.collapsed || times == longest || to_tell * times > longest) return true;
+      middle = std::move(end);
+    }
+  }
+
+  /// Returns how many times as long it would have to last to tell of the body that goes on fastest.
+  double judge(const PieceMotions& middle, const PieceMotions& end, double longer, ReducedRun& result) const {
+    result.moving_little.clear();
+    const auto add = [](std::vector<std::size_t>& bodies, std::size_t body) {
+      if (bodies.empty() || bodies.back() != body) bodies.push_back(body);
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < pieces_->all().size(); ++i) {
+      const std::size_t body = pieces_->all()[i].body;
       if (end.moved[i] > result.displacement) {
         result.displacement = end.moved[i];
-        result.body = i;
+        result.body = body;
       }
-      const double width = simulation.body_width(i);
-      const bool goes_on =
-          end.moved[i] - middle.moved[i] > end.moved[i] / 2 && end.speed[i] >= middle.speed[i];
-      if (end.moved[i] > lost * width || (end.moved[i] > seen * width && goes_on)) result.moving.push_back(i);
+      const Course course = pieces_->course(i, middle, end);
+      if (course == Course::failed) add(result.moving, body);
+      if (course != Course::goes_on) continue;
+      const double to_tell = pieces_->times_to_tell(i, end);
+      least = std::min(least, to_tell);
+      if (to_tell < last_look * longer) add(result.moving_little, body);
     }
-    result.kinetic = simulation.ledger().kinetic;
     result.collapsed = !result.moving.empty();
+    return least;
   }
 
   Scene scene_;
   const SafetySettings& settings_;
   RunSettings run_;
   Geometry geometry_;
-  Shape settled_shape_;
+  std::optional<Pieces> pieces_;
   bool settled_ = false;
 };
 
@@ -144,6 +135,10 @@ class Reduction {
 Scene with_reduced_strength(const Scene& scene, double factor) {
   Scene reduced = scene;
   reduced.stages.clear();
+  for (SceneBody& body : reduced.bodies) {
+    body.velocity = {};
+    body.angular_velocity = 0;
+  }
   bool any = false;
   if (const RegisteredComponent* law = scene.contact.component; law != nullptr) {
     for (std::vector<double>& row : reduced.interface_values)

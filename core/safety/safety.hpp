@@ -10,19 +10,21 @@
 namespace talus {
 
 /// The scene with tan φ, cohesion and tensile strength of all interfaces, and of materials that have them,
-/// divided by a factor, and a dilation angle no larger than the friction left. Without stages. Throws
-/// InputError where nothing could be reduced.
+/// divided by a factor, and a dilation angle no larger than the friction left. Without stages and without
+/// velocities at the start. Throws InputError where nothing could be reduced.
 Scene with_reduced_strength(const Scene& scene, double factor);
 
 /// How a scene fared with its strength divided by a factor.
 struct ReducedRun {
   double factor = 1;
   bool collapsed = false;
-  double displacement = 0;          ///< m, the largest of a vertex
-  std::size_t body = 0;             ///< that body
-  double kinetic = 0;               ///< J/m at the end
-  std::vector<std::size_t> moving;  ///< bodies that failed, where it collapsed
-  std::string trouble;              ///< what stopped it, if anything did
+  double displacement = 0;                 ///< m, the largest of a vertex
+  std::size_t body = 0;                    ///< that body
+  double kinetic = 0;                      ///< J/m at the end
+  double lasted = 0;                       ///< s
+  std::vector<std::size_t> moving;         ///< bodies that failed, where it collapsed
+  std::vector<std::size_t> moving_little;  ///< bodies that move on too slowly to tell
+  std::string trouble;                     ///< what stopped it, if anything did
 };
 
 struct SafetySettings {
@@ -43,10 +45,12 @@ struct Safety {
 
 /// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
 /// All runs start from the geometry that the scene settles into with its full strength, settle once more with
-/// theirs, and last as long as the scene says. What counts is how far the vertices of a body have come from
-/// that geometry. A body has failed if one moved by more than 1/20 of its width, wherever it stopped, or
-/// moves on: by more than 1/1000 of its width, more than half of it in the second half of the time, and no
-/// slower at the end than in the middle. The scene collapses if one has.
+/// theirs, and last as long as the scene says, or up to eight times as long where a body goes on that has not
+/// yet come far enough to tell. What counts is how far the vertices of a body, or of what joints cut out of
+/// one, have come from that geometry, along axes along which nothing drives it. It has failed if one moved by
+/// more than 1/20 of its width, wherever it stopped, or goes on: by more than 1/1000 of its width, more than
+/// 0.45 of it in the second half of the time, and at the end at more than 0.9 of the speed in the middle. The
+/// scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus

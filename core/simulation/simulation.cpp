@@ -1,5 +1,6 @@
 #include "simulation/simulation.hpp"
 
+#include "model/fragments.hpp"
 #include "output/hash.hpp"
 #include "simulation/state.hpp"
 
@@ -306,6 +307,12 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
     }
   }
   return parts;
+}
+
+std::vector<std::uint32_t> Simulation::fragments(std::size_t body) const {
+  const std::uint32_t index = state_->numbering.inside(body);
+  if (!state_->model.covered(index)) return {0};
+  return fragments_of(state_->model, index);
 }
 
 std::vector<SliverEffect> Simulation::slivers() const {

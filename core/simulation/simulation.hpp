@@ -163,10 +163,11 @@ class Simulation {
 
   std::size_t body_count() const;
   std::size_t block_count() const;            ///< bodies with unknowns
-  double body_width(std::size_t body) const;  ///< m, the smallest across it
+  double body_width(std::size_t body) const;  ///< m, see Body::width
   Motion body_motion(std::size_t body) const;
   Motion point_motion(std::size_t body, Vec2 point_at_start) const;
   std::vector<BodyPart> parts(std::size_t body) const;
+  std::vector<std::uint32_t> fragments(std::size_t body) const;  ///< [part] see fragments_of()
   std::size_t patch_count() const;
   std::size_t element_count() const;
   std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any

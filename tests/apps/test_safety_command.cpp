@@ -46,7 +46,9 @@ TEST_CASE(
   std::istringstream csv(read_whole_file(scratch / "results/safety.csv"));
   std::string line;
   std::getline(csv, line);
-  CHECK(line == "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by");
+  CHECK(line ==
+        "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by,lasted [s],still "
+        "moving");
   double last_factor = 0;
   int last_collapsed = 0, rows = 0;
   for (; std::getline(csv, line); ++rows) {

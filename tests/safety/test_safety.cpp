@@ -161,3 +161,87 @@ TEST_CASE("What sinks while it settles with less strength has failed", "[safety]
   CHECK(factor > 1.5);
   CHECK(factor < 1.7);
 }
+
+namespace {
+
+/// A block of side `size` on a plane of 35° with friction of 45°.
+Scene on_a_plane(double size, const std::vector<Override>& overrides = {}, const std::string& more = "") {
+  const double c = std::cos(35 * degree), s = std::sin(35 * degree), t = s / c;
+  const auto point = [&](double x, double y) { return fmt::format("[{}, {}]", size * x, size * y); };
+  return from_text(
+      fmt::format(fmt::runtime(rock_scene), "overlap_area", 45, "",
+                  fmt::format(
+                      R"({{"name": "base", "polygon": [{}, {}, {}, {}], "material": "rock", "fixed": true}},
+             {{"name": "a", "polygon": [{}, {}, {}, {}], "material": "rock", "cover": {{"model": "rigid"}}}}{})",
+                      point(-4, -8), point(8, -8), point(8, -8 * t), point(-4, 4 * t), point(0, 0),
+                      point(c, -s), point(c + s, c - s), point(s, c), more)),
+      overrides);
+}
+
+const double on_a_plane_due = 1 / std::tan(35 * degree);
+
+}  // namespace
+
+TEST_CASE("What slides at a steady speed has failed", "[safety]") {
+  for (const char* damping : {"30", "300"})
+    CHECK(factor_of(on_a_plane(1, {{"/damping", damping}})) == Approx(on_a_plane_due).epsilon(0.015));
+}
+
+TEST_CASE("A factor depends neither on the size of a block nor on the time it is given", "[safety]") {
+  CHECK(factor_of(on_a_plane(50)) == Approx(on_a_plane_due).epsilon(0.015));
+  CHECK(factor_of(on_a_plane(1, {{"/time/end", "0.05"}})) == Approx(on_a_plane_due).epsilon(0.015));
+}
+
+TEST_CASE("Drives and velocities at the start are no collapse", "[safety]") {
+  const std::string far =
+      R"(, {"name": "far", "material": "rock", "polygon": [[50, 0], [51, 0], [51, 1], [50, 1]], )";
+  CHECK(factor_of(on_a_plane(1, {}, far + R"("drive": {"x": 1, "y": 0.2, "rotation": 0}})")) ==
+        Approx(on_a_plane_due).epsilon(0.015));
+  CHECK(factor_of(on_a_plane(1, {{"/bodies/1/velocity", "[0.5, -0.3]"}})) ==
+        Approx(on_a_plane_due).epsilon(0.015));
+}
+
+TEST_CASE("A run goes on until it tells, and what moves on too slowly for that is named", "[safety]") {
+  const auto run_of = [](double beyond) {
+    Scene scene = on_a_plane(1, {{"/time/end", "0.05"}});
+    scene.interface_values[0][2] = std::atan(std::tan(35 * degree) / beyond);
+    SafetySettings settings;
+    settings.lowest = settings.highest = 1;
+    const Safety safety = factor_of_safety(scene, settings);
+    REQUIRE(safety.runs.size() == 1);
+    return safety.runs[0];
+  };
+  // g sin 35° times what is missing, over 0.05 and 0.4 s: 7 µm, and 1.4 mm of a width of 1 m.
+  const ReducedRun little = run_of(1.001);
+  CHECK_FALSE(little.collapsed);
+  CHECK(little.lasted == Approx(0.05));
+  CHECK(little.moving_little == std::vector<std::size_t>{1});
+  const ReducedRun more = run_of(1.003);
+  CHECK(more.collapsed);
+  CHECK(more.lasted == Approx(0.4));
+  CHECK(more.moving_little.empty());
+}
+
+TEST_CASE("A block that a joint cuts out of a body is followed", "[safety][slow_sanitised]") {
+  // It stands on the floor of an opening, which dips 35°; its corners are the opening's, none is of the
+  // outline.
+  const double c = std::cos(35 * degree), s = std::sin(35 * degree);
+  const auto point = [&](double along, double up) {
+    return fmt::format("[{}, {}]", along * c + up * s, up * c - along * s);
+  };
+  const std::string opening =
+      fmt::format("[{}, {}, {}, {}, {}, {}, {}, {}]", point(-2, 0), point(-0.5, 0), point(-0.5, 1),
+                  point(0.5, 1), point(0.5, 0), point(2, 0), point(2, 2), point(-2, 2));
+  const Scene scene = from_text(fmt::format(
+      R"({{"talus": 1, "gravity": [0, -9.81],
+    "materials": {{"rock": {{"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.2}}}},
+    "cover": {{"model": "hexagonal", "size": 0.8}}, "contact": {{"model": "overlap_area"}},
+    "interfaces": [{{"between": ["*", "*"], "normal_stiffness": 1e10, "tangential_stiffness": 1e10,
+                    "friction_angle": 45, "normal_damping": 0.3, "tangential_damping": 0.3}}],
+    "bodies": [{{"name": "a", "material": "rock", "polygon": [[-4, -4], [4, -4], [4, 4], [-4, 4]],
+                "surfaces": {{"foot": [0]}}, "holes": [{}], "discontinuities": [{{"points": [{}, {}]}}]}}],
+    "prescribed": [{{"body": "a", "surface": "foot", "displacement": [0, 0], "stiffness": 1e11}}],
+    "settle": {{"duration": 0.2, "damping": 100}}, "time": {{"end": 0.5}}}})",
+      opening, point(-0.5, 0), point(0.5, 0)));
+  CHECK(factor_of(scene, 0.02) == Approx(on_a_plane_due).epsilon(0.02));
+}

@@ -1,0 +1,96 @@
+#include "safety/collapse.hpp"
+
+#include "geometry/polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+constexpr double seen = 1e-3;    ///< share of the width
+constexpr double lost = 0.05;    ///< share of the width: whatever stops further on has failed, too
+constexpr double steady = 0.45;  ///< of the way, in the second half of the time: one half at constant speed
+constexpr double kept = 0.9;     ///< of the speed in the middle, at the end
+
+/// Along x and y; turning a body drives its vertices along both.
+std::array<bool, 2> driven_axes(const Scene& scene, std::size_t body) {
+  const Support& support = scene.bodies[body].support;
+  const auto drives = [](const std::optional<double>& velocity) { return velocity && *velocity != 0; };
+  std::array<bool, 2> driven{drives(support.x), drives(support.y)};
+  if (drives(support.rotation)) driven = {true, true};
+  for (const PrescribedSurface& surface : scene.prescribed) {
+    if (surface.body != body) continue;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto moves = [](const std::optional<Function>& way) { return way && !way->zero(); };
+      if (moves(surface.displacement[axis]) || moves(surface.velocity[axis])) driven[axis] = true;
+    }
+  }
+  return driven;
+}
+
+template <class Each>
+void over_vertices(const Simulation& simulation, std::size_t body, const Each& each) {
+  const std::vector<BodyPart> parts = simulation.parts(body);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (const std::vector<PartPoint>& loop : parts[p].loops) {
+      for (const PartPoint& point : loop) each(p, point);
+    }
+  }
+}
+
+}  // namespace
+
+bool is_driven(const Scene& scene, std::size_t body) {
+  const auto [x, y] = driven_axes(scene, body);
+  return x || y;
+}
+
+Pieces::Pieces(const Simulation& settled) {
+  const Scene& scene = settled.scene();
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (scene.bodies[body].fixed) continue;
+    const std::array<bool, 2> driven = driven_axes(scene, body);
+    if (driven[0] && driven[1]) continue;
+    bodies_.push_back(body);
+    const std::vector<std::uint32_t> fragment = settled.fragments(body);
+    const std::size_t first = pieces_.size();
+    std::vector<Ring> points(std::ranges::max(fragment) + std::size_t{1});
+    over_vertices(settled, body, [&](std::size_t part, const PartPoint& point) {
+      vertices_.push_back({first + fragment[part], point.position});
+      points[fragment[part]].push_back(point.position);
+    });
+    for (const Ring& ring : points) pieces_.push_back({body, smallest_width(ring), {!driven[0], !driven[1]}});
+  }
+}
+
+PieceMotions Pieces::motions(const Simulation& simulation) const {
+  PieceMotions motions{std::vector<double>(pieces_.size()), std::vector<double>(pieces_.size())};
+  auto vertex = vertices_.begin();
+  for (const std::size_t body : bodies_) {
+    over_vertices(simulation, body, [&](std::size_t, const PartPoint& point) {
+      const auto& [piece, from] = *vertex++;
+      const auto [x, y] = pieces_[piece].counts;
+      const auto size = [&](Vec2 p) { return std::hypot(x ? p.x : 0, y ? p.y : 0); };
+      const Vec2 way{point.position.x - from.x, point.position.y - from.y};
+      motions.moved[piece] = std::max(motions.moved[piece], size(way));
+      motions.speed[piece] = std::max(motions.speed[piece], size(point.velocity));
+    });
+  }
+  return motions;
+}
+
+Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
+  const double way = end.moved[piece], share = way / pieces_[piece].width;
+  if (share > lost) return Course::failed;
+  const bool goes_on =
+      way - middle.moved[piece] > steady * way && end.speed[piece] > kept * middle.speed[piece];
+  if (!goes_on) return Course::rests;
+  return share > seen ? Course::failed : Course::goes_on;
+}
+
+double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
+  return std::sqrt(seen * pieces_[piece].width / end.moved[piece]);
+}
+
+}  // namespace talus

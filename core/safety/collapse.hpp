@@ -1,0 +1,54 @@
+#pragma once
+
+#include "simulation/simulation.hpp"
+
+#include <array>
+#include <vector>
+
+namespace talus {
+
+/// Whether supports or prescribed surfaces move a body as the scene says.
+bool is_driven(const Scene& scene, std::size_t body);
+
+/// A body, or a fragment that joints cut out of it.
+struct FollowedPiece {
+  std::size_t body;
+  double width;                ///< m, the smallest across it
+  std::array<bool, 2> counts;  ///< whether motion along x, y does: not where the scene drives the body
+};
+
+/// [piece] how far the vertex has come that came farthest, m, and the largest speed of one, m/s.
+struct PieceMotions {
+  std::vector<double> moved, speed;
+};
+
+enum class Course { rests, goes_on, failed };
+
+/// The pieces of a scene that can fail, followed by all their vertices from one geometry on.
+class Pieces {
+ public:
+  explicit Pieces(const Simulation& settled);
+
+  const std::vector<FollowedPiece>& all() const { return pieces_; }
+  PieceMotions motions(const Simulation& simulation) const;
+
+  /// How a piece fares between the middle and the end of a run: failed, where it came far or goes on and has
+  /// come far enough to tell.
+  Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const;
+
+  /// How many times as long a run would have to be to tell of a piece that goes on as if it always
+  /// accelerated.
+  double times_to_tell(std::size_t piece, const PieceMotions& end) const;
+
+ private:
+  /// [vertex] of the parts of all bodies that can fail: its piece and where it was then.
+  struct Vertex {
+    std::size_t piece;
+    Vec2 position;
+  };
+  std::vector<FollowedPiece> pieces_;
+  std::vector<std::size_t> bodies_;
+  std::vector<Vertex> vertices_;
+};
+
+}  // namespace talus
