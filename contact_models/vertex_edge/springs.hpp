@@ -31,11 +31,13 @@ struct SpringForce {
 };
 
 /// Mohr–Coulomb with tension cut-off: no more than c l + N tan φ along the edge, no more than σ_t l across
-/// it. `viscous` is what a dashpot adds to the normal force.
+/// it. `viscous` is what a dashpot adds to the normal force. While the scene settles what has strength is
+/// held.
 inline SpringForce spring_force(const SpringParameters& spring, double depth, double viscous,
                                 double old_tangential, double slip, bool held) {
   SpringForce force{spring.normal * depth, old_tangential - spring.tangential * slip, false, false};
-  if (force.normal < -spring.tensile) return {0, 0, false, true};
+  const bool bond_held = held && spring.tensile > 0;
+  if (force.normal < -spring.tensile && !bond_held) return {0, 0, false, true};
   const double frictional = spring.friction * std::max(0.0, force.normal + viscous);
   const double limit = spring.cohesion + frictional;
   const bool without_strength = spring.friction == 0 && spring.cohesion == 0;

@@ -5,6 +5,7 @@
 
 #include <talus/library.hpp>
 
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -136,7 +137,7 @@ class VertexEdge final : public ContactModel {
           1e-12 * std::min(longest_side(geometry.piece[0]), longest_side(geometry.piece[1]));
       const auto bond_reach = [&](std::uint32_t key) {
         const SpringHistory* old = find_old(work.old, key);
-        if (old != nullptr && old->intact == 1) return reach_of_bonds(batch.interfaces);
+        if (old != nullptr && old->intact == 1) return reach_of_bonds(batch.interfaces, batch.hold_stick);
         return batch.bonds_form ? touching : 0.0;
       };
       work.finder.find(geometry, e, bond_reach, work.found);
@@ -160,8 +161,9 @@ class VertexEdge final : public ContactModel {
     return longest;
   }
 
-  /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces.
-  double reach_of_bonds(const Interfaces& interfaces) const {
+  /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces; any while
+  /// it is held.
+  static double reach_of_bonds(const Interfaces& interfaces, bool held) {
     double reach = 0;
     const std::uint32_t surfaces = interfaces.surface_count;
     for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
@@ -170,7 +172,7 @@ class VertexEdge final : public ContactModel {
       if (interface.normal_stiffness > 0)
         reach = std::max(reach, interface.tensile / interface.normal_stiffness);
     }
-    return reach;
+    return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
   }
 
   static const SpringHistory* find_old(const std::vector<SpringHistory>& old, std::uint32_t key) {

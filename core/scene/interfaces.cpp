@@ -209,6 +209,16 @@ std::vector<const Row*> best_rows(const std::vector<Row>& rows, const NumberedSu
   return best;
 }
 
+/// Of a row that holds for no two surfaces that can meet. One for all that is left may be idle.
+void warn_of_idle(Reading& reading, const Row& row, const std::set<std::size_t>& applied) {
+  const auto any = [](const Side& side) { return side.kind == Side::Kind::anything; };
+  if (applied.contains(row.number) || std::ranges::all_of(row.between, any)) return;
+  reading.scene.warnings.push_back(
+      fmt::format("/interfaces/{} never applies: none of its surfaces can meet, or more specific rows hold "
+                  "for those that can",
+                  row.number));
+}
+
 /// Fills Scene::interface_row. `complete` tells whether all rows could be read, so that one may be missed.
 void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<NumberedSurface>& surfaces,
              bool complete) {
@@ -216,6 +226,7 @@ void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<N
   const std::vector<bool> meet = meetings(reading.scene);
   reading.scene.interface_row.assign(count * count, 0);
   std::set<std::pair<std::size_t, std::size_t>> tied;
+  std::set<std::size_t> applied;
   std::size_t missing = 0;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i; j < count; ++j) {
@@ -223,6 +234,7 @@ void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<N
       const auto row = best.empty() ? 0u : static_cast<std::uint32_t>(best[0]->number);
       reading.scene.interface_row[i * count + j] = reading.scene.interface_row[j * count + i] = row;
       if (!meet[i * count + j]) continue;
+      if (!best.empty()) applied.insert(best[0]->number);
       if (best.empty() && complete && ++missing <= 20) {
         reading.mistakes.add("/interfaces",
                              fmt::format("no row covers {} against {}, which can meet: add a row "
@@ -238,6 +250,7 @@ void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<N
       }
     }
   }
+  for (const Row& row : rows) warn_of_idle(reading, row, applied);
 }
 
 void warn(Reading& reading, const ContactSection& contact, const std::set<std::string>& unread) {

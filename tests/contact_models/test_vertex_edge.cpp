@@ -57,6 +57,25 @@ TEST_CASE("A bonded contact holds up to its tensile strength and then breaks for
   CHECK(shifted(bench, {0, -2e-5}).on(1).y == Approx(1e9 * 1e-5).epsilon(1e-6));
 }
 
+TEST_CASE("While a scene settles a bond holds whatever pulls, and breaks when it is let go",
+          "[vertex_edge]") {
+  LawBench bench("vertex_edge", bonded());
+  bench.bodies = block_on_base(0);
+  bench.bonds_form = bench.hold_stick = true;
+  bench.step();
+  CHECK(shifted(bench, {0, 3e-4}).on(1).y == Approx(-1e9 * 3e-4).epsilon(1e-9));  // three times its strength
+  CHECK(shifted(bench, {0, -2.5e-4}).on(1).y == Approx(-1e9 * 5e-5).epsilon(1e-9));
+  bench.bonds_form = bench.hold_stick = false;
+  CHECK(shifted(bench, {0, 0}).on(1).y == Approx(-1e9 * 5e-5).epsilon(1e-9));  // within its strength again
+  CHECK(shifted(bench, {0, 1e-4}).size() == 0);
+  // Contacts without tensile strength open as ever.
+  LawBench loose("vertex_edge", with(undamped_interface(), {{"cohesion", 2e5}}));
+  loose.bodies = block_on_base(0);
+  loose.bonds_form = loose.hold_stick = true;
+  loose.step();
+  CHECK(shifted(loose, {0, 1e-4}).size() == 0);
+}
+
 TEST_CASE("A bonded contact opened in one stride breaks as well", "[vertex_edge]") {
   LawBench bench("vertex_edge", bonded());
   bench.bodies = block_on_base(0);

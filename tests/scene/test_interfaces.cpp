@@ -92,6 +92,21 @@ TEST_CASE("pairs that cannot meet need no row", "[scene]") {
         3);  // base–base, base–rock, rock–rock
 }
 
+TEST_CASE("a row that holds for nothing that can meet is told", "[scene]") {
+  // The surface "top" is of fixed steel alone; of the two rows for rock the more specific one holds.
+  const auto warnings = [](const std::string& rows) { return sample::read(with_rows(rows)).warnings; };
+  const std::string all = interface_row("*", "*", 1);
+  CHECK(warnings(all).empty());
+  const std::vector<std::string> idle = warnings(all + "," + interface_row("steel", "steel", 2));
+  REQUIRE(idle.size() == 1);
+  CHECK_THAT(idle[0], Catch::Contains("/interfaces/1 never applies"));
+  // One for the rest may find nothing left.
+  CHECK(warnings(all + "," + interface_row("rock", "*", 2) + "," + interface_row("rock", "rock", 3)).empty());
+  CHECK(warnings(interface_row("rock", "rock", 1) + "," + interface_row("rock", "steel", 2) + "," +
+                 interface_row("steel", "*", 3))
+            .size() == 1);
+}
+
 TEST_CASE("parameters that the chosen law does not read are accepted, and told", "[scene]") {
   ReadOptions smooth{{{"/contact/model", "smooth"}}, false};
   const Scene scene = sample::read(sample::good, smooth);
