@@ -112,13 +112,16 @@ void add_bricks(const Bricks& bricks, const Box& box, std::vector<Cut>& cuts) {
   }
 }
 
-void add_voronoi(const Sites& sites, const Ring& domain, const Geos& geos, std::vector<Cut>& cuts) {
-  const Box box = box_around(domain);
+void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos& geos,
+                 std::vector<Cut>& cuts) {
+  const Box box = box_around(domain[0]);
   Random random(sites.seed);
   std::vector<Vec2> points;
   if (sites.spacing == 0) {
     // Points are tried all over the box until enough lie within.
-    const double filled = std::abs(signed_area(domain)) / (box.width() * box.height());
+    double area = std::abs(signed_area(domain[0]));
+    for (std::size_t i = 1; i < domain.size(); ++i) area -= std::abs(signed_area(domain[i]));
+    const double filled = area / (box.width() * box.height());
     if (filled < least_filled) {
       throw std::runtime_error(fmt::format(
           "it fills {:.2g} of the box around it, too little to find points within at random (at least {}): "
@@ -129,7 +132,7 @@ void add_voronoi(const Sites& sites, const Ring& domain, const Geos& geos, std::
     while (points.size() < count) {
       const double x = random.share(), y = random.share();
       const Vec2 point{box.low.x + x * box.width(), box.low.y + y * box.height()};
-      if (contains({domain}, point, 0)) points.push_back(point);
+      if (contains(domain, point, 0)) points.push_back(point);
     }
   } else {
     const double row_height = sites.spacing * std::numbers::sqrt3 / 2, move = sites.jitter * sites.spacing;
@@ -145,7 +148,7 @@ void add_voronoi(const Sites& sites, const Ring& domain, const Geos& geos, std::
     }
   }
   if (points.size() < 2) return;  // one cell: nothing between cells
-  for (std::vector<Vec2>& side : geos.voronoi_sides(points, domain)) cuts.push_back({std::move(side)});
+  for (std::vector<Vec2>& side : geos.voronoi_sides(points, domain[0])) cuts.push_back({std::move(side)});
 }
 
 Density density_of(const JointSet& set, const Box& box) {

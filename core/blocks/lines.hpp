@@ -48,7 +48,9 @@ struct Sites {
 // Lines over the box and somewhat beyond, in an order that depends on the arguments alone.
 void add_joints(const JointSet& set, const Box& box, std::vector<Cut>& cuts);
 void add_bricks(const Bricks& bricks, const Box& box, std::vector<Cut>& cuts);
-void add_voronoi(const Sites& sites, const Ring& domain, const Geos& geos, std::vector<Cut>& cuts);
+/// `domain`: outer boundary and openings.
+void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos& geos,
+                 std::vector<Cut>& cuts);
 
 /// How dense lines are in a domain, to say before they are made how many blocks there will be.
 struct Density {

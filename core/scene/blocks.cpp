@@ -51,7 +51,7 @@ CutOrder order_of(const Shape& shape, Joints& joints, const Geos& geos) {
     add_bricks(*joints.bricks, box, order.cuts);
     order.is_void = [bricks = *joints.bricks, box](Vec2 point) { return bricks.in_gap(box, point); };
   }
-  if (joints.sites) add_voronoi(*joints.sites, shape.loops[0], geos, order.cuts);
+  if (joints.sites) add_voronoi(*joints.sites, shape.loops, geos, order.cuts);
   return order;
 }
 

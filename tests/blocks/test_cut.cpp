@@ -150,6 +150,11 @@ TEST_CASE("Voronoi cells by count and by spacing fill the domain", "[blocks]") {
   CHECK(area_sum(counted) == Approx(1).epsilon(rounding));
   CHECK(same_shapes(counted, made(R"("voronoi": {"count": 40, "seed": 1})")));
   CHECK(made(R"("voronoi": {"count": 1})").size() == 1);
+  // No point falls into an opening, and each has a block.
+  const auto around = made(
+      R"("voronoi": {"count": 40, "seed": 1}, "holes": [[[0.1, 0.1], [0.9, 0.1], [0.9, 0.8], [0.1, 0.8]]])");
+  CHECK(around.size() >= 40);
+  CHECK(area_sum(around) == Approx(1 - 0.56).epsilon(rounding));
   const auto spaced = made(R"("voronoi": {"spacing": 0.1, "jitter": 0, "seed": 1})");
   CHECK(area_sum(spaced) == Approx(1).epsilon(rounding));
   // Inner cells are the hexagons of the grid: spacing² √3/2.
