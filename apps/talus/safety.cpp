@@ -102,6 +102,7 @@ const ReducedRun& run_at(const Safety& safety, double factor) {
 
 /// What makes a factor that was found less sure than it looks.
 void warn_of_run(const Scene& scene, const Safety& safety) {
+  for (const std::string& warning : safety.warnings) print_warning(warning);
   if (!safety.stands) return;
   const ReducedRun& stood = run_at(safety, *safety.stands);
   if (stood.moving_little.empty()) return;

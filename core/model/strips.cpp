@@ -80,48 +80,6 @@ double distance_to_side(Vec2 point, const ReferenceSide& side) {
   return std::sqrt(dot(apart, apart));
 }
 
-/// Depth behind a side at which another part of the boundary is as near, seen from three points of the side:
-/// to the lines of other sides where they are met, and to every corner. Sides that compete with it have their
-/// say later; of other fragments there is none behind it.
-double equal_depth(const Model& model, const Body& body, std::uint32_t side, const std::vector<char>& near) {
-  const ReferenceSide own = reference_side(model, side);
-  const Vec2 normal = inward(own.tangent);
-  const double rounding = 1e-9 * model.side_size[side];  // faces of a crack coincide
-  double least = std::numeric_limits<double>::infinity();
-  const auto is_tip = [&](std::uint32_t before, std::uint32_t after) {
-    const Vec2 p = reference_side(model, before).tangent, q = reference_side(model, after).tangent;
-    return dot(p, q) < 0 && cross(p, q) < 1e-6;
-  };
-  const bool tip_at_start = is_tip(model.previous_side[side], side);
-  const bool tip_at_end = is_tip(side, model.next_side[side]);
-  for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
-    if (near[other - body.side_begin] != 0) continue;
-    const ReferenceSide there = reference_side(model, other);
-    const Vec2 other_normal = inward(there.tangent);
-    const double opening = 1 - dot(normal, other_normal);
-    for (const double share : {0.0, 0.5, 1.0}) {
-      const Vec2 from = along(own.start, share * own.length, own.tangent);
-      const double behind = dot(minus(from, there.start), other_normal);
-      if (!(behind > rounding) || !(opening > 1e-6)) continue;
-      const double depth = behind / opening;
-      const double place = dot(minus(along(from, depth, normal), there.start), there.tangent);
-      if (place >= 0 && place <= there.length) least = std::min(least, depth);
-    }
-    for (const auto& [is_tip_here, tip] :
-         {std::pair(tip_at_start, own.start), std::pair(tip_at_end, own.end)}) {
-      const double distance = is_tip_here ? distance_to_side(tip, there) : 0;
-      if (distance > rounding) least = std::min(least, distance / 2);
-    }
-    if (near[model.previous_side[other] - body.side_begin] != 0) continue;
-    const Vec2 way = minus(there.start, own.start);
-    const double behind = dot(way, normal), along_side = dot(way, own.tangent);
-    if (!(behind > rounding)) continue;
-    const double past = std::max({0.0, -along_side, along_side - own.length});
-    least = std::min(least, (behind * behind + past * past) / (2 * behind));
-  }
-  return least;
-}
-
 /// Inner bisector at the vertex between two sides, scaled to a depth of 1 behind both, cut short at sharp
 /// corners.
 Vec2 miter(Vec2 before, Vec2 after) {
@@ -136,6 +94,80 @@ Vec2 miter(Vec2 before, Vec2 after) {
   }
   // Around the tip of a crack, no farther than behind its faces.
   return squared > 1e-12 ? unit(sum) : unit(minus(before, after));
+}
+
+/// A way along which a strip reaches its depth: t m behind the side it is at from + t direction.
+struct Ray {
+  Vec2 from, direction;
+};
+
+/// Whether boxes around two sides are further apart than `gap` along x or y.
+bool are_apart(const Model& model, std::uint32_t p, std::uint32_t q, double gap) {
+  const auto apart = [&](double Vec2::*axis) {
+    const double a = model.sides[p].start.reference.*axis, b = model.sides[p].end.reference.*axis,
+                 c = model.sides[q].start.reference.*axis, d = model.sides[q].end.reference.*axis;
+    return std::min(c, d) - std::max(a, b) > gap || std::min(a, b) - std::max(c, d) > gap;
+  };
+  return apart(&Vec2::x) || apart(&Vec2::y);
+}
+
+/// Depth behind a side at which another part of the boundary is as near, seen from three points of the side
+/// and along the bisectors at its ends: to the lines of other sides where they are met, and to every corner.
+/// Sides that compete with it have their say later; of other fragments there is none behind it. Exact as far
+/// as it is below `wanted`: what is more than five times that away allows more, for bisectors are no longer
+/// than three.
+double equal_depth(const Model& model, const Body& body, std::uint32_t side, double wanted,
+                   const std::vector<char>& near) {
+  const ReferenceSide own = reference_side(model, side);
+  const Vec2 normal = inward(own.tangent);
+  const Vec2 before = reference_side(model, model.previous_side[side]).tangent,
+             after = reference_side(model, model.next_side[side]).tangent;
+  const double rounding = 1e-9 * model.side_size[side];  // faces of a crack coincide
+  const auto is_tip = [](Vec2 p, Vec2 q) { return dot(p, q) < 0 && cross(p, q) < 1e-6; };
+  struct End {
+    Ray bisector;
+    bool reflex, tip;
+  };
+  const auto end_between = [&](Vec2 at, Vec2 p, Vec2 q) {
+    const bool tip = is_tip(p, q);
+    return End{{at, miter(p, q)}, tip || cross(p, q) < -1e-6, tip};
+  };
+  const End ends[] = {end_between(own.start, before, own.tangent), end_between(own.end, own.tangent, after)};
+
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
+    if (near[other - body.side_begin] != 0 || are_apart(model, side, other, 5 * wanted)) continue;
+    const ReferenceSide there = reference_side(model, other);
+    const auto meet = [&](const Ray& ray) {
+      const Vec2 other_normal = inward(there.tangent);
+      const double behind = dot(minus(ray.from, there.start), other_normal),
+                   opening = 1 - dot(ray.direction, other_normal);
+      if (!(behind > rounding) || !(opening > 1e-6)) return;
+      const double depth = behind / opening;
+      const double place = dot(minus(along(ray.from, depth, ray.direction), there.start), there.tangent);
+      if (place >= 0 && place <= there.length) least = std::min(least, depth);
+    };
+    for (const double share : {0.0, 0.5, 1.0})
+      meet({along(own.start, share * own.length, own.tangent), normal});
+    for (const End& end : ends) {
+      meet(end.bisector);
+      const double distance = end.tip ? distance_to_side(end.bisector.from, there) : 0;
+      if (distance > rounding) least = std::min(least, distance / 2);
+    }
+    if (near[model.previous_side[other] - body.side_begin] != 0) continue;
+    for (const auto& [bisector, reflex, tip] : ends) {
+      // Around a reflex corner the strip fans out.
+      const Vec2 way = minus(there.start, bisector.from);
+      const double ahead = reflex ? dot(way, bisector.direction) : 0;
+      if (ahead > rounding) least = std::min(least, dot(way, way) / (2 * ahead));
+    }
+    const Vec2 way = minus(there.start, own.start);
+    const double behind = dot(way, normal), along_side = dot(way, own.tangent);
+    if (!(behind > rounding)) continue;
+    const double past = std::max({0.0, -along_side, along_side - own.length});
+    least = std::min(least, (behind * behind + past * past) / (2 * behind));
+  }
+  return least;
 }
 
 using Corners = std::array<Vec2, 4 + 2 * most_competitors + 1>;
@@ -194,7 +226,7 @@ void add_strips(Model& model, std::uint32_t index) {
     near[side - body.side_begin] = near[model.next_side[side] - body.side_begin] = 1;
     near[model.previous_side[side] - body.side_begin] = 1;
     for (const std::uint32_t competitor : competitors) near[competitor - body.side_begin] = 1;
-    const double depth = std::min(wanted, safe_share * equal_depth(model, body, side, near));
+    const double depth = std::min(wanted, safe_share * equal_depth(model, body, side, wanted, near));
     depths.push_back(depth);
     const std::size_t corners = 4 + competitors.size();
     for (std::size_t c = 0; c < corners; ++c) {
@@ -241,10 +273,9 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
     if (start_behind > 0 && end_behind > 0) {
       const double closing = dot(at_start, tangent) / start_behind - dot(at_end, tangent) / end_behind;
       const double length = std::sqrt(dot(span, span));
-      const double depth = strip.depth * std::min(start_behind, end_behind);
-      if (closing * depth > length) {
-        start_depth = length / closing / start_behind;
-        end_depth = length / closing / end_behind;
+      if (closing > 0) {
+        start_depth = std::min(start_depth, length / closing / start_behind);
+        end_depth = std::min(end_depth, length / closing / end_behind);
       }
     }
     Corners corners{start, end, along(end, end_depth, at_end), along(start, start_depth, at_start)};
@@ -267,6 +298,8 @@ void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) 
 
 bool hang_together(const Model& model, const Strip& strip, std::uint32_t side) {
   bool met = model.next_side[strip.side] == side || model.previous_side[strip.side] == side;
+  for (std::uint32_t i = strip.competitor_begin; i < strip.competitor_end; ++i)
+    met = met || model.competitors[i] == side;
   for (const bool onwards : {true, false}) {
     walk(model, strip.side, strip.depth, onwards, [&](std::uint32_t next, double /*turned*/) {
       met = met || next == side;

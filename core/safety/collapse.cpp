@@ -60,7 +60,9 @@ Pieces::Pieces(const Simulation& settled) {
       vertices_.push_back({first + fragment[part], point.position});
       points[fragment[part]].push_back(point.position);
     });
-    for (const Ring& ring : points) pieces_.push_back({body, smallest_width(ring), {!driven[0], !driven[1]}});
+    for (const Ring& ring : points)
+      pieces_.push_back(
+          {body, std::min(smallest_width(ring), settled.body_width(body)), {!driven[0], !driven[1]}});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "output/input_error.hpp"
 #include "safety/collapse.hpp"
+#include "scene/nearest.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,13 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
   return reduced;
 }
 
+/// The same of a material, which a rigid body has none of.
+bool reduce(Choice& model, double factor) {
+  return model.component != nullptr &&
+         reduce(model.component->component->parameters, model.component->component->parameter_count, factor,
+                model.values);
+}
+
 class Reduction {
  public:
   Reduction(const Scene& scene, const SafetySettings& settings) : scene_(scene), settings_(settings) {
@@ -54,11 +62,14 @@ class Reduction {
     run_.threads = settings.threads;
     Simulation whole(with_reduced_strength(scene_, 1), run_);
     settled_ = whole.settle(settings_.interrupted);
+    warnings_ = whole.summary().warnings;
+    warn_of_locking(whole);
     geometry_ = whole.geometry();
     pieces_.emplace(whole);
   }
 
   bool settled() const { return settled_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Nothing if it was interrupted.
   std::optional<ReducedRun> run(double factor) const {
@@ -77,6 +88,21 @@ class Reduction {
   }
 
  private:
+  void warn_of_locking(const Simulation& whole) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const SceneBody& body = scene_.bodies[i];
+      Choice model = scene_.materials[body.material].model;
+      if (!body.fixed && whole.fragments(i).size() > 1 && reduce(model, 1)) names.push_back(body.name);
+    }
+    if (names.empty()) return;
+    warnings_.push_back(
+        fmt::format("triangles of constant strain lock where they yield: a factor of bodies of many elements "
+                    "that yield is too high, the more so the coarser they are; see where it goes with their "
+                    "size: {}",
+                    listed(names)));
+  }
+
   /// Until it is clear whether it stands, each time twice as long as before. False if it was interrupted.
   bool follow(Simulation& simulation, ReducedRun& result) const {
     const auto advance = [&](int halves) {
@@ -128,6 +154,7 @@ class Reduction {
   Geometry geometry_;
   std::optional<Pieces> pieces_;
   bool settled_ = false;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace
@@ -147,10 +174,7 @@ Scene with_reduced_strength(const Scene& scene, double factor) {
             any;
   }
   for (SceneMaterial& material : reduced.materials) {
-    if (const RegisteredComponent* model = material.model.component; model != nullptr)
-      any = reduce(model->component->parameters, model->component->parameter_count, factor,
-                   material.model.values) ||
-            any;
+    any = reduce(material.model, factor) || any;
   }
   if (!any)
     throw InputError(
@@ -167,6 +191,7 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
   Safety safety;
   const Reduction reduction(scene, settings);
   safety.interrupted = !reduction.settled();
+  safety.warnings = reduction.warnings();
   double next = 1;
   while (!safety.interrupted) {
     const std::optional<ReducedRun> run = reduction.run(next);

@@ -109,7 +109,7 @@ void Loads::apply(MotionState& motion, const StepSpan& span, double dt) {
   stored_ = applied_ = 0;
   apply_points(motion, span, dt);
   apply_surface_loads(motion, span, dt);
-  apply_supports(motion, span.time);
+  apply_supports(motion, span.time, dt);
   apply_absorbing(motion, dt);
 }
 
@@ -168,24 +168,28 @@ void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, doubl
   }
 }
 
-/// λ∫(u − ū). The work is that of the moving support; what the springs hold is stored.
-void Loads::apply_supports(MotionState& motion, double time) {
+/// λ∫(u − ū). The work is that of the moving support; what the springs hold is stored. Where others take
+/// over, these go with their target to the end, but over half of the last step the force on the body was
+/// already that of the others: f Δu/2 is taken off for these and added for those.
+void Loads::apply_supports(MotionState& motion, double time, double dt) {
   for (SupportPoint& point : support_points_) {
     const PrescribedSurface& prescribed = prescribed_[point.prescribed];
     const BoundarySide& side = sides_[point.at.side];
     const double length = size_of(
         {side.end.reference.x - side.start.reference.x, side.end.reference.y - side.start.reference.y});
     const double stiffness = prescribed.stiffness * length * point.at.share;
-    const Vec2 moved = displacement_at(motion, point.at);
+    const Vec2 moved = displacement_at(motion, point.at), speed = velocity_at(motion, point.at);
     std::array<double, 2> force{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (!prescribed.displacement[axis] && !prescribed.velocity[axis]) continue;
       const double target = target_of(prescribed, axis, time, point.at.scene_point);
       const double error = (axis == 0 ? moved.x : moved.y) - target;
       stored_ += stiffness * error * error / 2;
-      force[axis] = acting_ ? -stiffness * error : 0;
+      force[axis] = -stiffness * error;
       if (!point.fresh)
         work_ += (target - point.last_target[axis]) * (force[axis] + point.last_force[axis]) / 2;
+      if (point.fresh || !acting_)
+        work_ += (acting_ ? 1 : -1) * force[axis] * (axis == 0 ? speed.x : speed.y) * dt / 2;
       point.last_force[axis] = force[axis];
       point.last_target[axis] = target;
     }

@@ -76,7 +76,7 @@ class Loads {
   void work_through(Worker& worker, Vec2 force, Vec2 moved);
   void apply_points(MotionState& motion, const StepSpan& span, double dt);
   void apply_surface_loads(MotionState& motion, const StepSpan& span, double dt);
-  void apply_supports(MotionState& motion, double time);
+  void apply_supports(MotionState& motion, double time, double dt);
   void apply_absorbing(MotionState& motion, double dt);
   void add_on_side(MotionState& motion, const SideShare& at, Vec2 force);
   Vec2 displacement_at(const MotionState& motion, const SideShare& at) const;

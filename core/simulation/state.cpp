@@ -118,8 +118,8 @@ void Simulation::State::forces() {
   profile.enter(Phase::materials);
   if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
-    unbalanced_share = relaxation.unbalanced(model, motion, stage.supports, pull) /
-                       (Relaxation::weight(model, pull) + loads.applied());
+    const double unbalanced = relaxation.unbalanced(model, motion, stage.supports, pull);
+    unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
   }
   const double damping = relaxation.damping(how, model, motion, dt_behind);
   const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};

@@ -114,6 +114,29 @@ TEST_CASE("What cannot stand, and what stands whatever is taken, are told apart"
   CHECK_FALSE(stood.falls);
 }
 
+TEST_CASE("What makes a factor doubtful is told", "[safety]") {
+  const std::string flat =
+      R"({"name": "base", "polygon": [[-4, -1], [4, -1], [4, 0], [-4, 0]], "material": "rock", "fixed": true},
+         {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})";
+  Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", flat));
+  CHECK(factor_of_safety(scene, {.highest = 1.1}).warnings.empty());
+  scene.settle->duration = 0.001;
+  scene.settle->until = 1e-6;
+  const std::vector<std::string> unsettled = factor_of_safety(scene, {.highest = 1.1}).warnings;
+  REQUIRE(unsettled.size() == 1);
+  CHECK_THAT(unsettled[0], Catch::Contains("settling ended with its duration"));
+
+  const Scene yielding = from_text(R"({"talus": 1, "gravity": [0, -10],
+      "materials": {"r": {"density": 2000, "model": "mohr_coulomb", "young_modulus": 1e8, "poisson_ratio": 0.25,
+                          "friction_angle": 0, "cohesion": 1e6, "dilation_angle": 0}},
+      "bodies": [{"name": "a", "material": "r", "polygon": [[0, 0], [2, 0], [2, 2], [0, 2]], "fix": ["y"],
+                  "cover": {"model": "hexagonal", "size": 0.7}}],
+      "time": {"end": 0.01}, "settle": {"duration": 0.01, "damping": 20}})");
+  const std::vector<std::string> locking = factor_of_safety(yielding, {.highest = 1.1}).warnings;
+  REQUIRE(locking.size() == 1);
+  CHECK_THAT(locking[0], Catch::Contains("lock where they yield") && Catch::Contains("a"));
+}
+
 TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {
   const Scene scene = shipped("stick_31deg");
   const Scene reduced = with_reduced_strength(scene, 2);

@@ -221,6 +221,25 @@ TEST_CASE("a support that a stage begins takes or gives the kinetic energy, what
   CHECK(simulation.summary().largest_residual_share <= 1e-6);
 }
 
+TEST_CASE("a support that moves on through a stage keeps its books", "[simulation][stages]") {
+  // A block is pulled along by springs; the stage changes nothing, or the springs.
+  const auto cover = GENERATE(R"({"model": "rigid"})", R"({"model": "hexagonal", "size": 0.5})");
+  const auto set = GENERATE(
+      R"("/gravity": [0, 0])",
+      R"("/prescribed": [{"body": "a", "surface": "foot", "stiffness": 4e6, "velocity": [1, null]}])",
+      R"("/prescribed": [])");
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, fmt::format(R"("surfaces": {{"foot": [0]}}, "cover": {})", cover));
+  text.rest = fmt::format(
+      R"("prescribed": [{{"body": "a", "surface": "foot", "stiffness": 1e6, "velocity": [1, null]}}],
+         "stages": [{{"name": "next", "from": 0.02, "set": {{{}}}}}],)",
+      set);
+  text.time = R"({"end": 0.1})";
+  text.output = R"({"history": 0.002})";
+  CAPTURE(cover, set);
+  CHECK(run_to_end(text).summary().largest_residual_share <= 1e-5);
+}
+
 TEST_CASE("ground that moves ever faster works on a free body by the mean of both ends of a step",
           "[simulation][stages]") {
   for (const char* cover :
