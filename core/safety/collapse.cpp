@@ -72,8 +72,8 @@ PieceMotions Pieces::motions(const Simulation& simulation) const {
   for (const std::size_t body : bodies_) {
     over_vertices(simulation, body, [&](std::size_t, const PartPoint& point) {
       const auto& [piece, from] = *vertex++;
-      const auto [x, y] = pieces_[piece].counts;
-      const auto size = [&](Vec2 p) { return std::hypot(x ? p.x : 0, y ? p.y : 0); };
+      const std::array<bool, 2>& counts = pieces_[piece].counts;
+      const auto size = [&](Vec2 p) { return std::hypot(counts[0] ? p.x : 0, counts[1] ? p.y : 0); };
       const Vec2 way{point.position.x - from.x, point.position.y - from.y};
       motions.moved[piece] = std::max(motions.moved[piece], size(way));
       motions.speed[piece] = std::max(motions.speed[piece], size(point.velocity));
