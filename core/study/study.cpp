@@ -71,6 +71,7 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
   run.residual =
       record["largest_residual_share"].is_number() ? record["largest_residual_share"].get<double>() : 1.0;
   run.penetration = record["largest_penetration [m]"];
+  run.warnings = record.value("warnings", run.warnings);
   run.history = read_series(folder / "history.csv");
   return run;
 }

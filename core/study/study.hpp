@@ -24,6 +24,7 @@ struct StudyRun {
   double work = 0;                  ///< steps times elements and blocks
   double residual = 0;              ///< share of the energy throughput that the ledger missed, at most
   double penetration = 0;           ///< m, the largest
+  std::vector<std::string> warnings;
   Series history;
 };
 

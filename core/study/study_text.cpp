@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_orders = 8;  ///< between neighbours, that say more than the slope of all
+constexpr std::size_t most_warnings = 8;
 
 Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -18,6 +19,23 @@ Json optional_json(const std::optional<double>& value) {
 
 std::string share_text(const std::optional<double>& share) {
   return share ? fmt::format("{:.3g} %", 100 * *share) : "-";
+}
+
+/// Each once, with the first run that raised it.
+std::string warnings_text(const StudyPlan& plan, const std::vector<StudyRun>& runs) {
+  std::vector<std::string> told;
+  std::string text;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const std::string& warning : runs[i].warnings) {
+      if (std::ranges::find(told, warning) != told.end()) continue;
+      told.push_back(warning);
+      if (told.size() <= most_warnings)
+        text += fmt::format("warning: {}: {}\n", plan.words(plan.points[i]), warning);
+    }
+  }
+  if (told.size() > most_warnings)
+    text += fmt::format("{} warnings more in study.json\n", told.size() - most_warnings);
+  return text;
 }
 
 }  // namespace
@@ -61,6 +79,7 @@ std::string study_json(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     Json entry{
         {"folder", run.folder.filename().string()}, {"values", plan.points[i].values}, {"end", run.end}};
     if (!run.trouble.empty()) entry["trouble"] = run.trouble;
+    if (!run.warnings.empty()) entry["warnings"] = run.warnings;
     entry["error [-]"] = optional_json(found.error);
     entry["rms"] = optional_json(found.rms);
     entry["largest"] = optional_json(found.largest);
@@ -115,7 +134,7 @@ std::string study_table(const StudyPlan& plan, const std::vector<StudyRun>& runs
       text += fmt::format("failed: {}: {}\n", plan.words(plan.points[i]),
                           runs[i].done ? runs[i].trouble : "not run to its end");
   }
-  return text;
+  return text + warnings_text(plan, runs);
 }
 
 }  // namespace talus

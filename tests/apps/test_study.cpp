@@ -51,6 +51,19 @@ TEST_CASE("A study runs every combination, lists what failed, and goes on where 
   CHECK(json_of(scratch / "out/small-study/run_0001/run.json")["plugins"][0]["xxh3_128"] == hash);
 }
 
+TEST_CASE("A study passes on what its runs warn of", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call =
+      call_talus(scratch.folder(), {"study", "small.json", "--quiet", "--vary", "/time/dt=2e-4,1e-4", "--set",
+                                    R"(/settle={"duration": 1e-3, "damping": 10, "until": 1e-9})"});
+  INFO(call.out + call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("warning: dt=2e-4: settling ended with its duration"));
+  CHECK_THAT(json_of(scratch / "out/small-study/study.json")["runs"][0]["warnings"].dump(),
+             Contains("settling ended with its duration"));
+}
+
 TEST_CASE("A study makes each run as often as it is asked to and takes the median of the cost",
           "[apps][study]") {
   const Scratch scratch;
