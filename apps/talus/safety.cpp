@@ -32,6 +32,12 @@ bool was_stopped(const ReducedRun& run) {
   return !run.trouble.empty();
 }
 
+std::vector<std::string> names_of(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  std::vector<std::string> names;
+  for (const std::size_t body : bodies) names.push_back(scene.bodies[body].name);
+  return names;
+}
+
 /// A run that was stopped says nothing of how far what moved.
 std::string safety_csv(const Scene& scene, const Safety& safety) {
   std::string text =
@@ -39,9 +45,7 @@ std::string safety_csv(const Scene& scene, const Safety& safety) {
       "moving\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
     const auto names = [&](const std::vector<std::size_t>& bodies) {
-      std::string text_of;
-      for (const std::size_t body : bodies) text_of += (text_of.empty() ? "" : " ") + scene.bodies[body].name;
-      return text_of;
+      return fmt::format("{}", fmt::join(names_of(scene, bodies), " "));
     };
     const bool stopped = was_stopped(run);
     const std::string fields[] = {fmt::format("{}", run.factor),
@@ -88,12 +92,6 @@ void say_bounds(const Safety& safety) {
   };
   fmt::print("interrupted: found to stand at {}, to collapse at {}\n", known(safety.stands),
              known(safety.falls));
-}
-
-std::vector<std::string> names_of(const Scene& scene, const std::vector<std::size_t>& bodies) {
-  std::vector<std::string> names;
-  for (const std::size_t body : bodies) names.push_back(scene.bodies[body].name);
-  return names;
 }
 
 const ReducedRun& run_at(const Safety& safety, double factor) {
@@ -161,15 +159,11 @@ void say_result(const Scene& scene, const Safety& safety) {
 Usage usage_of_safety() {
   Usage usage{
       "safety", "SCENE [options]",
-      "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and "
-      "of\n"
-      "materials that have them, are divided by a factor until the scene collapses, by bisection, each time "
-      "from the\n"
-      "same settled geometry and for as long as the scene lasts, up to eight times as long where that does "
-      "not "
-      "tell. Writes safety.csv and safety.svg to a "
-      "folder:\n"
-      "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
+      "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and\n"
+      "of materials that have them, are divided by a factor until the scene collapses, by bisection, each\n"
+      "time from the same settled geometry and for as long as the scene lasts, or up to eight times as long\n"
+      "where that does not tell. Writes safety.csv and safety.svg to a folder: out/<scene name>-safety\n"
+      "unless --out says otherwise. Pore pressure and bolts are not modelled.",
       "SCENE",
       "  talus safety scenes/stick_31deg.json\n"
       "  talus safety slope.json --tolerance 0.002 --set /time/end=5\n"};

@@ -178,7 +178,9 @@ void Loads::apply_supports(MotionState& motion, double time, double dt) {
     const double length = size_of(
         {side.end.reference.x - side.start.reference.x, side.end.reference.y - side.start.reference.y});
     const double stiffness = prescribed.stiffness * length * point.at.share;
-    const Vec2 moved = displacement_at(motion, point.at), speed = velocity_at(motion, point.at);
+    const bool changes_hands = point.fresh || !acting_;
+    const Vec2 moved = displacement_at(motion, point.at),
+               speed = changes_hands ? velocity_at(motion, point.at) : Vec2{};
     std::array<double, 2> force{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (!prescribed.displacement[axis] && !prescribed.velocity[axis]) continue;
@@ -188,8 +190,7 @@ void Loads::apply_supports(MotionState& motion, double time, double dt) {
       force[axis] = -stiffness * error;
       if (!point.fresh)
         work_ += (target - point.last_target[axis]) * (force[axis] + point.last_force[axis]) / 2;
-      if (point.fresh || !acting_)
-        work_ += (acting_ ? 1 : -1) * force[axis] * (axis == 0 ? speed.x : speed.y) * dt / 2;
+      if (changes_hands) work_ += (acting_ ? 1 : -1) * force[axis] * (axis == 0 ? speed.x : speed.y) * dt / 2;
       point.last_force[axis] = force[axis];
       point.last_target[axis] = target;
     }
