@@ -11,6 +11,21 @@ namespace {
 
 constexpr int spins = 4000;  ///< some ten microseconds: longer than any stretch between two loops of a step
 constexpr int yields = 200;
+/// Some microseconds for a thread that is at work to do its part. Whoever helps it sooner fetches the values
+/// of the part from another core, and the other fetches them back in the next loop.
+constexpr int patience = 200;
+
+/// A loop, of which 2^39 are told from each other, and chunks of it.
+constexpr std::uint64_t counted(std::uint64_t loop, std::uint64_t chunks) {
+  return loop << 24 | chunks;
+}
+constexpr std::uint64_t chunks_of(std::uint64_t count) {
+  return count & 0xFFFFFF;
+}
+/// How many loops after the one of the count; negative: before.
+constexpr std::int64_t loops_since(std::uint64_t count, std::uint64_t loop) {
+  return static_cast<std::int64_t>((loop << 24) - (count & ~std::uint64_t{0xFFFFFF})) >> 24;
+}
 
 void relax() {
 #if defined(__x86_64__)
@@ -20,7 +35,9 @@ void relax() {
 
 }  // namespace
 
-Workers::Workers(int threads) : parts_(std::make_unique<Part[]>(static_cast<std::size_t>(threads))) {
+Workers::Workers(int threads)
+    : taken_(std::make_unique<Count[]>(static_cast<std::size_t>(threads))),
+      done_(std::make_unique<Count[]>(static_cast<std::size_t>(threads))) {
   others_.reserve(static_cast<std::size_t>(threads) - 1);
   try {
     for (int i = 1; i < threads; ++i) others_.emplace_back([this, i] { serve(static_cast<std::size_t>(i)); });
@@ -38,75 +55,109 @@ Workers::~Workers() {
 
 void Workers::close() {
   closing_.store(true, std::memory_order_relaxed);
-  round_.fetch_add(1);
-  round_.notify_all();
+  order_.edition.fetch_add(2);
+  order_.edition.notify_all();
   for (std::thread& other : others_) other.join();
 }
 
-/// Neighbouring chunks stay together, so that what a thread touched in one loop is near it in the next.
 void Workers::share(std::size_t chunks, Call call, const void* context) {
-  call_ = call;
-  context_ = context;
-  done_.store(0, std::memory_order_relaxed);
-  const std::size_t all = others_.size() + 1;
-  for (std::size_t i = 0; i < all; ++i) {
-    parts_[i].end = chunks * (i + 1) / all;
-    parts_[i].next.store(chunks * i / all, std::memory_order_relaxed);
-  }
-  round_.fetch_add(1);
-  round_.notify_all();
-  take_part(0);
-  const auto wait_until = [](const auto& reached) {
-    for (int i = 0; !reached(); ++i) {
-      if (i < spins) {
-        relax();
-      } else {
-        std::this_thread::yield();
-      }
+  const Loop loop{order_.number.load(std::memory_order_relaxed) + 1, chunks, call, context};
+  order_.edition.store(order_.edition.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);
+  order_.number.store(loop.number, std::memory_order_relaxed);
+  order_.chunks.store(chunks, std::memory_order_relaxed);
+  order_.call.store(call, std::memory_order_relaxed);
+  order_.context.store(context, std::memory_order_relaxed);
+  order_.edition.fetch_add(1);
+  order_.edition.notify_all();
+  take_part(loop, 0);
+  for (int i = 0; !are_done(loop); ++i) {
+    if (i < spins) {
+      relax();
+    } else {
+      std::this_thread::yield();
     }
-  };
-  wait_until([&] { return done_.load(std::memory_order_acquire) == chunks; });
-  // Whoever enters from now on sees that the loop is over, or is seen here: both orders are those of one
-  // sequence of all threads.
-  round_.fetch_add(1);
-  wait_until([&] { return inside_.load() == 0; });
+  }
 }
 
 void Workers::serve(std::size_t number) {
   for (std::uint32_t seen = 0;;) {
-    std::uint32_t now = round_.load(std::memory_order_acquire);
-    for (int i = 0; now == seen || now % 2 == 0; ++i) {
+    std::uint32_t now = order_.edition.load(std::memory_order_acquire);
+    for (int i = 0; now == seen || now % 2 != 0; ++i) {
       if (i < spins) {
         relax();
       } else if (i < spins + yields) {
         std::this_thread::yield();
       } else {
-        round_.wait(now, std::memory_order_acquire);
+        order_.edition.wait(now, std::memory_order_acquire);
       }
-      now = round_.load(std::memory_order_acquire);
+      now = order_.edition.load(std::memory_order_acquire);
     }
-    inside_.fetch_add(1);
-    seen = round_.load();
-    if (seen % 2 != 0) take_part(number);
-    inside_.fetch_sub(1, std::memory_order_release);
     if (closing_.load(std::memory_order_relaxed)) return;
+    const Loop loop{
+        order_.number.load(std::memory_order_relaxed), order_.chunks.load(std::memory_order_relaxed),
+        order_.call.load(std::memory_order_relaxed), order_.context.load(std::memory_order_relaxed)};
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (order_.edition.load(std::memory_order_relaxed) != now) continue;
+    seen = now;
+    take_part(loop, number);
+  }
+}
+
+/// Parts are alike in every loop and made of neighbours, so that what a thread touched in one loop is near it
+/// in the next.
+std::size_t Workers::begin_of_part(const Loop& loop, std::size_t part) const {
+  return loop.chunks * part / (others_.size() + 1);
+}
+
+/// The next chunk of a part. As long as one is left its loop goes on, and what it refers to is there; who
+/// comes too late finds all taken, or a later loop.
+bool Workers::take(const Loop& loop, std::size_t part, std::size_t& chunk) {
+  const std::size_t begin = begin_of_part(loop, part), count = begin_of_part(loop, part + 1) - begin;
+  std::atomic<std::uint64_t>& taken = taken_[part].loop_and_chunks;
+  std::uint64_t now = taken.load(std::memory_order_relaxed);
+  for (;;) {
+    const std::int64_t later = loops_since(now, loop.number);
+    const std::uint64_t before = later > 0 ? 0 : chunks_of(now);
+    if (later < 0 || before >= count) return false;
+    if (!taken.compare_exchange_weak(now, counted(loop.number, before + 1), std::memory_order_relaxed))
+      continue;
+    chunk = begin + before;
+    return true;
+  }
+}
+
+/// Until the thread has done its part; not for long, and not at all for one that was not there for the loop
+/// before, because another program has its core.
+void Workers::wait_for(const Loop& loop, std::size_t thread) const {
+  for (int i = 0; i < patience; ++i) {
+    const std::int64_t behind =
+        loops_since(done_[thread].loop_and_chunks.load(std::memory_order_relaxed), loop.number);
+    if (behind != 1) return;
+    relax();
   }
 }
 
 /// First the thread's own part, then what is left of those of others.
-void Workers::take_part(std::size_t number) {
+void Workers::take_part(const Loop& loop, std::size_t thread) {
   const std::size_t all = others_.size() + 1;
-  std::size_t done = 0;
+  std::uint64_t done = 0;
   for (std::size_t i = 0; i < all; ++i) {
-    Part& part = parts_[(number + i) % all];
-    while (part.next.load(std::memory_order_relaxed) < part.end) {
-      const std::size_t chunk = part.next.fetch_add(1, std::memory_order_relaxed);
-      if (chunk >= part.end) break;
-      call_(context_, chunk, number);
-      ++done;
-    }
+    const std::size_t part = (thread + i) % all;
+    if (i > 0) wait_for(loop, part);
+    for (std::size_t chunk = 0; take(loop, part, chunk); ++done) loop.call(loop.context, chunk, thread);
+    // Also of one that came too late: it was there.
+    done_[thread].loop_and_chunks.store(counted(loop.number, done), std::memory_order_release);
   }
-  if (done != 0) done_.fetch_add(done, std::memory_order_release);
+}
+
+bool Workers::are_done(const Loop& loop) const {
+  std::uint64_t done = 0;
+  for (std::size_t i = 0; i <= others_.size(); ++i) {
+    const std::uint64_t count = done_[i].loop_and_chunks.load(std::memory_order_acquire);
+    if (loops_since(count, loop.number) == 0) done += chunks_of(count);
+  }
+  return done == loop.chunks;
 }
 
 }  // namespace talus

@@ -40,7 +40,7 @@ class Workers {
         task(chunk, begin, end);
       }
     };
-    if (others_.empty() || chunks < 2) {
+    if (others_.empty() || chunks < 2 || chunks > most_chunks) {
       for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk, 0);
       return;
     }
@@ -53,24 +53,42 @@ class Workers {
   }
 
  private:
+  static constexpr std::size_t most_chunks = (std::size_t{1} << 24) - 1;
+
   using Call = void (*)(const void* context, std::size_t chunk, std::size_t thread);
   void close();
   void share(std::size_t chunks, Call call, const void* context);
   void serve(std::size_t number);
-  void take_part(std::size_t number);
 
-  /// Chunks that one thread begins with, on a line of the cache of their own.
-  struct alignas(64) Part {
-    std::atomic<std::size_t> next{0};
-    std::size_t end = 0;
+  struct Loop {
+    std::uint64_t number;  ///< loops before it
+    std::size_t chunks;
+    Call call;
+    const void* context;
+  };
+  /// The present loop, on a line of the cache that only the caller of over() writes: others have all of it at
+  /// once.
+  struct alignas(64) Order {
+    std::atomic<std::uint32_t> edition{0};  ///< odd while the rest is being written
+    std::atomic<std::uint64_t> number{0};
+    std::atomic<std::size_t> chunks{0};
+    std::atomic<Call> call{nullptr};
+    std::atomic<const void*> context{nullptr};
+  };
+  /// Of a loop, on a line of its own: chunks taken of the part that a thread begins with, or those it has
+  /// done.
+  struct alignas(64) Count {
+    std::atomic<std::uint64_t> loop_and_chunks{0};
   };
 
-  Call call_ = nullptr;
-  const void* context_ = nullptr;
-  std::unique_ptr<Part[]> parts_;         ///< [thread]
-  std::atomic<std::uint32_t> round_{0};   ///< odd while there is a loop to take part in
-  std::atomic<std::uint32_t> inside_{0};  ///< others that may be looking at the present loop
-  std::atomic<std::size_t> done_{0};      ///< chunks
+  std::size_t begin_of_part(const Loop& loop, std::size_t part) const;
+  bool take(const Loop& loop, std::size_t part, std::size_t& chunk);
+  void wait_for(const Loop& loop, std::size_t thread) const;
+  bool are_done(const Loop& loop) const;
+  void take_part(const Loop& loop, std::size_t thread);
+
+  Order order_;
+  std::unique_ptr<Count[]> taken_, done_;  ///< [thread]
   std::atomic<bool> closing_{false};
   std::vector<std::thread> others_;
 };

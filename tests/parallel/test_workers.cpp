@@ -62,3 +62,16 @@ TEST_CASE("More threads than cores share many short loops", "[parallel]") {
   }
   CHECK(sum == 3000u * 780 + 40u * (2999u * 3000 / 2));
 }
+
+TEST_CASE("Threads that come late find no loop that has ended", "[parallel]") {
+  // Fewer chunks than threads in most loops, so that parts go unused and threads fall behind; what a loop
+  // refers to is gone after it.
+  Workers workers(5);
+  for (std::size_t round = 0; round < 20000; ++round) {
+    const std::size_t chunks = 2 + round * round % 7;
+    std::vector<std::size_t> visits(chunks, 0);
+    workers.over(chunks, 1,
+                 [&](std::size_t chunk, std::size_t, std::size_t) { visits[chunk] += round + chunk; });
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) REQUIRE(visits[chunk] == round + chunk);
+  }
+}
