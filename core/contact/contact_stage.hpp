@@ -79,6 +79,9 @@ class ContactStage {
 
   std::uint64_t searches() const { return searches_; }
   std::span<const BodyPair> pairs() const { return pairs_; }
+  std::span<const PiecePair> pieces_of(const BodyPair& pair) const {
+    return {piece_pairs_.data() + pair.piece_pair_start, pair.piece_pair_end - pair.piece_pair_start};
+  }
   /// [contact] of a pair, of a step that was observed.
   std::span<const ContactReport> reports_of(std::size_t pair) const {
     return {reports_.data() + slot_of(pair), pairs_[pair].contact_count};

@@ -1,3 +1,4 @@
+#include "contact/thin_ground.hpp"
 #include "simulation/state.hpp"
 
 #include <fmt/format.h>
@@ -166,6 +167,24 @@ void Simulation::State::warn_of_initial_overlap() {
   summary.warnings.push_back(fmt::format(
       "{} and {} overlap by {:.3g} m at the start and will be thrown apart; part them or add a settle stage",
       place(totals.deepest_a), place(totals.deepest_b), totals.penetration));
+}
+
+/// At output times, once in a run: check_step() knows how deep contact sees half of a body's sides alone.
+void Simulation::State::warn_of_thin_ground() {
+  if (model.covered_bodies.empty()) return;
+  constexpr const char* met = "is met deeper than contact sees it";
+  const auto tells = [&](const std::string& warning) { return warning.find(met) != std::string::npos; };
+  if (std::any_of(summary.warnings.begin(), summary.warnings.end(), tells)) return;
+  const std::optional<ThinGround> found = find_thin_ground(model, motion, contacts);
+  if (!found) return;
+  const std::string by = found->other == found->body ? "another part of itself"
+                                                     : fmt::format("'{}'", scene.bodies[found->other].name);
+  summary.warnings.push_back(fmt::format(
+      "'{}' {} by {} at ({:.6g}, {:.6g}) m, t = {:.6g} s: it is thin there, and its surface pushes to a "
+      "depth of "
+      "{:.3g} m; raise normal_stiffness of their interface, or make the thin part a body of its own",
+      scene.bodies[found->body].name, met, by, scene.origin.x + found->place.x,
+      scene.origin.y + found->place.y, time, found->depth));
 }
 
 }  // namespace talus

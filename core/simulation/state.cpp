@@ -167,7 +167,10 @@ double Simulation::State::evaluate_contacts() {
     sleep->wake(contacts.touched(), time, sleeping_parts());
     contact_totals.stored += sleep->contact_energy();
   }
-  if (plan.done == 0) check_shapes();  // not where a checkpoint happens to be due
+  if (plan.done == 0) {  // not where a checkpoint happens to be due
+    check_shapes();
+    if (!settling) warn_of_thin_ground();
+  }
   check_law();
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;

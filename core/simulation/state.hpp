@@ -119,6 +119,7 @@ struct Simulation::State {
   void check_balance();
   void warn_of_large_step();
   void warn_of_initial_overlap();
+  void warn_of_thin_ground();
   void bring_rotation_up_to_date();
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
   Vec2 displacement_at_start(const Carrier& carrier) const;
