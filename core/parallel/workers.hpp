@@ -11,9 +11,9 @@
 namespace talus {
 
 /// Threads that share loops many times per millisecond. They wait between loops by spinning, then by giving
-/// the core away, then asleep: a loop costs tens of nanoseconds to hand out while a run steps, and nothing is
-/// burnt while it writes. Nobody waits for a thread that has not come yet, because another program has its
-/// core: those that are there do its part.
+/// the core away, then asleep: a loop costs to hand out what some lines of the cache take from one core to
+/// another while a run steps, and nothing is burnt while it writes. Nobody waits long for a thread that has
+/// not come yet, because another program has its core: those that are there do its part.
 class Workers {
  public:
   /// The caller of over() is one of the `threads`. Throws InputError where the system has no room for so
@@ -53,7 +53,7 @@ class Workers {
   }
 
  private:
-  static constexpr std::size_t most_chunks = (std::size_t{1} << 24) - 1;
+  static constexpr std::size_t most_chunks = (std::size_t{1} << 24) - 1;  ///< that a Count has room for
 
   using Call = void (*)(const void* context, std::size_t chunk, std::size_t thread);
   void close();
@@ -61,7 +61,7 @@ class Workers {
   void serve(std::size_t number);
 
   struct Loop {
-    std::uint64_t number;  ///< loops before it
+    std::uint64_t number;  ///< counted from 1
     std::size_t chunks;
     Call call;
     const void* context;

@@ -181,8 +181,7 @@ void Simulation::State::warn_of_thin_ground() {
                                                      : fmt::format("'{}'", scene.bodies[found->other].name);
   summary.warnings.push_back(fmt::format(
       "'{}' {} by {} at ({:.6g}, {:.6g}) m, t = {:.6g} s: it is thin there, and its surface pushes to a "
-      "depth of "
-      "{:.3g} m; raise normal_stiffness of their interface, or make the thin part a body of its own",
+      "depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin part a body of its own",
       scene.bodies[found->body].name, met, by, scene.origin.x + found->place.x,
       scene.origin.y + found->place.y, time, found->depth));
 }
