@@ -95,3 +95,21 @@ TEST_CASE("A contact that opens forgets, and its spring energy is booked as lost
     CHECK(std::abs(bench.step(1e-3).on(1).x) < 1e-6);
   }
 }
+
+TEST_CASE("Friction is not forgotten where the load acts beside the overlap", "[laws]") {
+  // Two acute corners, point on point, 1.4 mm deep: where the sides of the one are nearest is not in the
+  // other.
+  const HeldBody lower = held({{0.8101, 0.5863}, {-0.7794, 0.6266}, {0.3334, -0.9428}}),
+                 pointed = held({{-4.0791, -1.5969}, {-0.7764, 0.6253}, {-4.1585, 0.1934}});
+  LawBench plain("overlap_area"), general("overlap_area");
+  for (LawBench* bench : {&plain, &general}) {
+    bench->bodies = {lower, pointed};
+    bench->bodies[0].motion.velocity = {0.5, 1};
+    bench->master_share = 1;
+    bench->plain = bench == &plain;
+    for (int step = 0; step < 5; ++step) bench->step(1e-5);
+  }
+  const double elastic = plain.history.begin()->second.history[0];
+  CHECK(std::abs(elastic) > 1);
+  CHECK(general.history.begin()->second.history[0] == Approx(elastic).epsilon(1e-6));
+}

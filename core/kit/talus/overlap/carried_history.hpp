@@ -27,9 +27,12 @@ class CarriedHistory {
              PairReport& report) {
     carried_.assign(report.contact_count, FrictionHistory{});
     name_strips(overlaps, report.contact_count);
+    measure_spans(overlaps, batch.dt);
     if (pair.contact_count == 0) return;
-    spans_.clear();
-    for (std::uint32_t g = 0; g < report.contact_count; ++g) spans_.push_back(overlaps.span(g, batch.dt));
+    if (pair.plain() && report.contact_count == 1) {  // wherever it is: convex bodies have one contact
+      add(1, read_history(batch.history + pair.slot_start * friction_doubles), carried_[0]);
+      return;
+    }
     old_.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
@@ -49,6 +52,17 @@ class CarriedHistory {
     }
   }
 
+  /// A contact is where its overlap is: the foot of its load may lie far from there, on another side of a
+  /// corner, or where dashpots press.
+  void measure_spans(const OverlapGroups& overlaps, double dt) {
+    spans_.clear();
+    for (std::uint32_t g = 0; g < carried_.size(); ++g) {
+      spans_.push_back(overlaps.span(g, dt));
+      carried_[g].x = spans_[g].centre.x;
+      carried_[g].y = spans_[g].centre.y;
+    }
+  }
+
   void carry_by_place(std::uint32_t i, PairReport& report) {
     const FrictionHistory& old = old_[i];
     const auto size_of_takers = [&](bool bent) {
@@ -65,14 +79,16 @@ class CarriedHistory {
     }
     for (std::uint32_t g = 0; g < spans_.size(); ++g) {
       if (!takes(g, i, bent)) continue;
-      const double share = spans_[g].size / total;
-      FrictionHistory& now = carried_[g];
-      now.elastic += share * old.elastic;
-      now.applied += share * old.applied;
-      now.stored += share * old.stored;
-      now.contact_length += share * old.contact_length;
-      now.slip = old.slip;
+      add(spans_[g].size / total, old, carried_[g]);
     }
+  }
+
+  static void add(double share, const FrictionHistory& old, FrictionHistory& now) {
+    now.elastic += share * old.elastic;
+    now.applied += share * old.applied;
+    now.stored += share * old.stored;
+    now.contact_length += share * old.contact_length;
+    now.slip = old.slip;
   }
 
   /// Whether a contact takes over from one of before: the two could be the same, and neither has a nearer one
@@ -120,11 +136,7 @@ class CarriedHistory {
     if (old.strips == 0) return false;
     for (FrictionHistory& now : carried_) {
       if (now.strips != old.strips) continue;
-      now.elastic += old.elastic;
-      now.applied += old.applied;
-      now.stored += old.stored;
-      now.contact_length += old.contact_length;
-      now.slip = old.slip;
+      add(1, old, now);
       return true;
     }
     return false;

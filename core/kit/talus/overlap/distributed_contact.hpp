@@ -128,6 +128,7 @@ class DistributedContact {
     if constexpr (Law::frictional) {
       FrictionHistory none{};
       none.strips = carried_[group].strips;
+      none.x = carried_[group].x, none.y = carried_[group].y;
       report.slip_loss += carried_[group].stored;
       write_history(none, loads.history + slot * friction_doubles);
     }
@@ -382,13 +383,10 @@ class DistributedContact {
       stiffness += cell.interface.tangential_stiffness * cell.load;
       damping += cell.interface.tangential_damping * cell.load;
     }
-    const Point foot = foot_of_all();
-    history.x = foot.x;
-    history.y = foot.y;
     const double old_stored = history.stored, old_applied = history.applied;
     if (!(limit > 0) || contact_length_ == 0) {
       report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
-      history = {0, 0, 0, contact_length_, foot.x, foot.y, 0, history.strips};
+      history = {0, 0, 0, contact_length_, history.x, history.y, 0, history.strips};
       return {0, 0};
     }
     if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(limit, batch.dt);

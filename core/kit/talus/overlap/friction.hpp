@@ -12,7 +12,7 @@ struct FrictionHistory {
   double applied;         ///< N/m, tangential force without damping
   double stored;          ///< J/m, in the tangential spring
   double contact_length;  ///< m, L projected on s_c
-  double x, y;            ///< m, where it acts, in the frame of the pair: to know it again
+  double x, y;            ///< m, where it is, in the frame of the pair: to know it again
   double slip;            ///< direction of the force while slipping (±1), 0 while sticking
   double strips;  ///< where a piece is a strip, name_of_strips(); else 0, or what the lanes remember of
                   ///< plain bodies (TouchingPair)
