@@ -9,6 +9,9 @@ talus_browser_packages=(chromium chromium-driver python3-selenium)
 # What checks scenes against their JSON Schema in the tests.
 talus_schema_packages=(python3-jsonschema)
 
+# What .ci/run checks with beside the tests.
+talus_check_packages=(clang clang-format clang-tidy)
+
 # What adds up the counters of a build of preset `coverage`.
 talus_coverage_packages=(gcovr)
 

@@ -44,13 +44,19 @@ struct Cover {
   std::vector<Steadied> steadied;
 };
 
+/// Of any number, also of one that no choice has.
+Slivers treatment_of(double choice) {
+  if (choice == 1) return Slivers::mass_scale;
+  return choice == 2 ? Slivers::keep : Slivers::merge;
+}
+
 class Hexagonal final : public CoverBuilder {
  public:
   explicit Hexagonal(const double* values)
       : size_(values[0]),
         vertex_{values[1], values[2]},
         angle_(values[3]),
-        treatment_(static_cast<Slivers>(static_cast<int>(values[4]))),
+        treatment_(treatment_of(values[4])),
         share_(values[5]) {}
 
   void build(const BodyShape& body, CoverSink& sink) const noexcept override {

@@ -80,7 +80,8 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
   }
 }
 
-TEST_CASE("check-plugin passes a right law, material and cover in each of their checks", "[conformance]") {
+TEST_CASE("check-plugin passes a right law, material and cover in each of their checks",
+          "[conformance][slow_sanitised]") {
   const Scratch scratch;
   for (const auto& [library, checks] :
        {std::pair{"right", 24}, std::pair{"right_rock", 10}, std::pair{"right_fan", 7}}) {
@@ -116,7 +117,7 @@ TEST_CASE("a law that is wrong about energy or stiffness fails in the one check 
 }
 
 TEST_CASE("a law that does not keep to the interface fails in the one check that is meant for it",
-          "[conformance]") {
+          "[conformance][slow_sanitised]") {
   expect_one_failure({{"breaks_on_short_sides", "degenerate"},
                       {"clings_to_plan", "plan"},
                       {"crashes", "degenerate"},
@@ -146,7 +147,8 @@ TEST_CASE("a cover that is wrong fails in the one check that is meant for it", "
                       {"torn", "unity"}});
 }
 
-TEST_CASE("a law that does not come back is stopped and fails where it hung", "[conformance]") {
+TEST_CASE("a law that does not come back is stopped and fails where it hung",
+          "[conformance][slow_sanitised]") {
   const Scratch scratch;
   const Call call = call_talus(scratch.folder(), {"check-plugin", spoilt("hangs"), "--time-limit", "6"});
   INFO(call.out << call.err);

@@ -23,7 +23,7 @@ Call call_within(const Limits& limits, const std::filesystem::path& folder,
   std::string command;
   // sh counts blocks of 512 bytes.
   if (limits.file_kilobytes > 0) command += fmt::format("ulimit -f {}; ", 2 * limits.file_kilobytes);
-#ifdef __SANITIZE_ADDRESS__  // which reserves terabytes and takes some eight times as long
+#ifdef TALUS_SANITIZED  // AddressSanitizer reserves terabytes and takes some eight times as long
   const int seconds = 8 * limits.seconds;
 #else
   const int seconds = limits.seconds;

@@ -101,7 +101,8 @@ const Hostile hostile_scenes[] = {
 
 }  // namespace
 
-TEST_CASE("Scenes that ask for everything end in words, in modest memory and time", "[faults]") {
+TEST_CASE("Scenes that ask for everything end in words, in modest memory and time",
+          "[faults][slow_sanitised]") {
   const Scratch scratch;
   for (const Hostile& hostile : hostile_scenes) {
     CAPTURE(hostile.name);
