@@ -12,7 +12,7 @@
 namespace talus {
 namespace {
 
-/// A connected region: ring 0 is its outer boundary, the others are holes.
+/// A connected region: one ring is its outer boundary, the others are holes.
 using RingSet = std::vector<ConvexPiece>;
 
 Vec2 direction(Vec2 from, Vec2 to) {
@@ -31,14 +31,17 @@ struct Place {
   std::size_t ring, corner;
 };
 
+bool is_reflex(const ConvexPiece& ring, std::size_t i) {
+  const Vec2 in = direction(ring[previous(ring, i)].at, ring[i].at);
+  const Vec2 out = direction(ring[i].at, ring[next(ring, i)].at);
+  const bool spike = in.x * out.x + in.y * out.y < -1 + 1e-12;
+  return cross(in, out) < -1e-12 || (spike && cross(in, out) <= 0);
+}
+
 std::optional<Place> reflex_corner(const RingSet& region) {
   for (std::size_t r = 0; r < region.size(); ++r) {
-    const ConvexPiece& ring = region[r];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 in = direction(ring[previous(ring, i)].at, ring[i].at);
-      const Vec2 out = direction(ring[i].at, ring[next(ring, i)].at);
-      const bool spike = in.x * out.x + in.y * out.y < -1 + 1e-12;
-      if (cross(in, out) < -1e-12 || (spike && cross(in, out) <= 0)) return Place{r, i};
+    for (std::size_t i = 0; i < region[r].size(); ++i) {
+      if (is_reflex(region[r], i)) return Place{r, i};
     }
   }
   return std::nullopt;
@@ -52,37 +55,81 @@ Vec2 inner_bisector(const ConvexPiece& ring, std::size_t i) {
   return size > 1e-9 ? Vec2{sum.x / size, sum.y / size} : in;
 }
 
-/// First boundary ahead of a corner; splits the side it hits unless the hit is at one of its ends.
-Place cut_target(RingSet& region, Place from, Vec2 along) {
+struct Hit {
+  Place side;
+  double distance, share;  ///< m, from the corner; where on the side, from its start
+};
+
+/// First boundary ahead of a corner.
+Hit first_ahead(const RingSet& region, Place from, Vec2 along) {
   const Vec2 start = region[from.ring][from.corner].at;
-  double nearest = std::numeric_limits<double>::infinity(), share = 0;
-  std::optional<Place> hit;
+  Hit nearest{{}, std::numeric_limits<double>::infinity(), 0};
   for (std::size_t r = 0; r < region.size(); ++r) {
     const ConvexPiece& ring = region[r];
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const std::size_t end = next(ring, i);
       if (r == from.ring && (i == from.corner || end == from.corner)) continue;
       const Vec2 side{ring[end].at.x - ring[i].at.x, ring[end].at.y - ring[i].at.y};
+      // One along the way is met at its end, which is that of another.
       const double facing = cross(side, along);
-      if (!(facing < 0)) continue;
+      if (!(facing < -1e-9 * size_of(side))) continue;
       const Vec2 away{ring[i].at.x - start.x, ring[i].at.y - start.y};
       const double distance = cross(away, side) / cross(along, side);
-      const double position = cross(away, along) / cross(along, side);
-      if (position < -1e-9 || position > 1 + 1e-9 || !(distance > 0) || distance >= nearest) continue;
-      nearest = distance;
-      share = position;
-      hit = Place{r, i};
+      const double share = cross(away, along) / cross(along, side);
+      if (share < -1e-9 || share > 1 + 1e-9 || !(distance > 0) || distance >= nearest.distance) continue;
+      nearest = {{r, i}, distance, share};
     }
   }
-  if (!hit) throw Indivisible(start);
-  ConvexPiece& ring = region[hit->ring];
-  if (share < 1e-9) return *hit;
-  if (share > 1 - 1e-9) return {hit->ring, next(ring, hit->corner)};
-  PieceCorner corner = ring[hit->corner];
-  const Vec2 end = ring[next(ring, hit->corner)].at;
+  if (!std::isfinite(nearest.distance)) throw Indivisible(start);
+  return nearest;
+}
+
+/// Of the corners at one place, two where a cut to another ring ends, that between whose sides a cut arrives.
+Place that_faces(const RingSet& region, Place corner, Vec2 along) {
+  const auto angle = [](Vec2 from, Vec2 to) {
+    const double turned = std::atan2(cross(from, to), from.x * to.x + from.y * to.y);
+    return turned < 0 ? turned + 2 * std::acos(-1.0) : turned;
+  };
+  const ConvexPiece& ring = region[corner.ring];
+  const Vec2 at = ring[corner.corner].at, back{-along.x, -along.y};
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].at.x != at.x || ring[i].at.y != at.y) continue;
+    const Vec2 out = direction(at, ring[next(ring, i)].at), in = direction(at, ring[previous(ring, i)].at);
+    const double margin = std::min(angle(out, back), angle(out, in) - angle(out, back));
+    if (margin > most) most = margin, corner.corner = i;
+  }
+  return corner;
+}
+
+/// Where a cut ends; splits the side it hits unless the hit is at one of its ends.
+Place cut_target(RingSet& region, Place from, Vec2 along) {
+  const auto [side, distance, share] = first_ahead(region, from, along);
+  ConvexPiece& ring = region[side.ring];
+  if (share < 1e-9) return that_faces(region, side, along);
+  if (share > 1 - 1e-9) return that_faces(region, {side.ring, next(ring, side.corner)}, along);
+  PieceCorner corner = ring[side.corner];
+  const Vec2 end = ring[next(ring, side.corner)].at;
   corner.at = {corner.at.x + share * (end.x - corner.at.x), corner.at.y + share * (end.y - corner.at.y)};
-  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(hit->corner) + 1, corner);
-  return {hit->ring, hit->corner + 1};
+  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(side.corner) + 1, corner);
+  return {side.ring, side.corner + 1};
+}
+
+/// The reflex corners of a body, that with the shortest way to the other side first: so which cut ends at
+/// which depends neither on the corner nor on the direction from which the body is listed.
+std::vector<Vec2> reflex_corners_by_reach(const RingSet& whole) {
+  std::vector<std::pair<double, Vec2>> found;
+  for (std::size_t r = 0; r < whole.size(); ++r) {
+    for (std::size_t i = 0; i < whole[r].size(); ++i) {
+      if (!is_reflex(whole[r], i)) continue;
+      found.emplace_back(first_ahead(whole, {r, i}, inner_bisector(whole[r], i)).distance, whole[r][i].at);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
+  std::vector<Vec2> corners;
+  for (const auto& [reach, at] : found) corners.push_back(at);
+  return corners;
 }
 
 /// Corners from `first` round to `last`, then back along the cut.
@@ -122,8 +169,10 @@ class Divider {
     // No cut makes a corner reflex, and each leaves one less; where rounding sees it otherwise there is no
     // end.
     for (const ConvexPiece& ring : whole) most_cuts_ += ring.size();
+    const std::vector<Vec2> corners = reflex_corners_by_reach(whole);
     // Not by recursion: a saw of many teeth would exhaust the stack.
     std::vector<RingSet> waiting{std::move(whole)};
+    for (const Vec2 at : corners) cut_from(waiting, at);
     std::vector<ConvexPiece> pieces;
     while (!waiting.empty()) {
       RingSet region = std::move(waiting.back());
@@ -140,20 +189,39 @@ class Divider {
   }
 
  private:
-  /// Makes cuts until one divides the region; keeps one half of it and returns the other. Nothing where all
-  /// corners are convex.
+  /// Makes the cut from the reflex corner at a place, in the region that has it.
+  void cut_from(std::vector<RingSet>& regions, Vec2 at) {
+    for (RingSet& region : regions) {
+      for (std::size_t r = 0; r < region.size(); ++r) {
+        for (std::size_t i = 0; i < region[r].size(); ++i) {
+          if (region[r][i].at.x != at.x || region[r][i].at.y != at.y || !is_reflex(region[r], i)) continue;
+          if (std::optional<RingSet> other_half = cut(region, {r, i}))
+            regions.push_back(std::move(*other_half));
+          return;
+        }
+      }
+    }
+  }
+
+  /// What rounding has left reflex: makes cuts until one divides the region; keeps one half of it and returns
+  /// the other. Nothing where all corners are convex.
   std::optional<RingSet> cut_first_half_off(RingSet& region) {
     while (const std::optional<Place> corner = reflex_corner(region)) {
-      if (cuts_ == most_cuts_) throw Indivisible(region[corner->ring][corner->corner].at);
-      Place from = *corner;
-      const Vec2 along = inner_bisector(region[from.ring], from.corner);
-      const std::size_t before = region[from.ring].size();
-      const Place to = cut_target(region, from, along);
-      if (to.ring == from.ring && region[from.ring].size() > before && to.corner <= from.corner)
-        ++from.corner;
-      if (to.ring == from.ring) return halve(region, from, to);
-      join(region, from, to);
+      if (std::optional<RingSet> other_half = cut(region, *corner)) return other_half;
     }
+    return std::nullopt;
+  }
+
+  /// Cuts from a reflex corner to the boundary ahead. If that divides the region, keeps one half of it and
+  /// returns the other.
+  std::optional<RingSet> cut(RingSet& region, Place from) {
+    if (cuts_ == most_cuts_) throw Indivisible(region[from.ring][from.corner].at);
+    const Vec2 along = inner_bisector(region[from.ring], from.corner);
+    const std::size_t before = region[from.ring].size();
+    const Place to = cut_target(region, from, along);
+    if (to.ring == from.ring && region[from.ring].size() > before && to.corner <= from.corner) ++from.corner;
+    if (to.ring == from.ring) return halve(region, from, to);
+    join(region, from, to);
     return std::nullopt;
   }
 
@@ -175,9 +243,11 @@ class Divider {
     const ConvexPiece ring = region[from.ring];
     RingSet halves[2] = {{part(ring, from.corner, to.corner, cut)},
                          {part(ring, to.corner, from.corner, cut)}};
+    // A hole is divided into a region of its own and what is still a hole.
+    const std::size_t encloses = area_of(halves[0][0]) > 0 ? 0 : 1;
     for (std::size_t r = 0; r < region.size(); ++r) {
       if (r == from.ring) continue;
-      halves[inside(halves[0][0], region[r][0].at) ? 0 : 1].push_back(region[r]);
+      halves[inside(halves[encloses][0], region[r][0].at) ? encloses : 1 - encloses].push_back(region[r]);
     }
     region = std::move(halves[0]);
     return std::move(halves[1]);

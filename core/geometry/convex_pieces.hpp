@@ -25,8 +25,9 @@ class Indivisible : public std::runtime_error {
 };
 
 /// Cuts a body into convex pieces along the inner bisectors of its reflex vertices, so that the distance to
-/// the nearest side is continuous across each cut near its vertex. A convex body is its own only piece.
-/// Throws Indivisible where features of the body are as small as rounding.
+/// the nearest side is continuous across each cut near its vertex. Where bisectors cross, that from the
+/// vertex nearest to the side ahead goes through. A convex body is its own only piece. Throws Indivisible
+/// where features of the body are as small as rounding.
 std::vector<ConvexPiece> convex_pieces(const Loop& outer, std::span<const Loop> holes);
 
 }  // namespace talus

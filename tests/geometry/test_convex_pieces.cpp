@@ -15,6 +15,8 @@ using namespace talus;
 
 namespace {
 
+const double pi = std::acos(-1.0);
+
 struct Shape {
   std::string name;
   Ring outer;
@@ -26,7 +28,6 @@ const Ring square_hole{{1, 1}, {1, 2}, {2, 2}, {2, 1}};
 const Ring triangular_hole{{4, 1}, {4.5, 2.5}, {5, 1}};
 
 Ring star(int points) {
-  const double pi = std::acos(-1.0);
   Ring ring;
   for (int i = 0; i < 2 * points; ++i) {
     const double radius = i % 2 == 0 ? 2 : 0.8, angle = pi * i / points;
@@ -186,6 +187,47 @@ std::vector<ConvexPiece> check_rules(const Ring& outer, const std::vector<Ring>&
   return pieces;
 }
 
+double uniform(std::mt19937& random) {
+  return static_cast<double>(random()) / 4294967296.0;
+}
+
+/// Around the origin, nowhere nearer to it than 1.5.
+Ring ragged(std::mt19937& random) {
+  const int corners = 5 + static_cast<int>(random() % 30);
+  Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * pi * (i + 0.8 * uniform(random)) / corners, radius = 1.5 + 3 * uniform(random);
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+Ring small_hole(std::mt19937& random) {
+  const int corners = 3 + static_cast<int>(random() % 5);
+  Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = -2 * pi * i / corners, radius = 0.2 + 0.3 * uniform(random);
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+std::vector<double> sorted_areas(const std::vector<ConvexPiece>& pieces) {
+  std::vector<double> areas;
+  for (const ConvexPiece& piece : pieces) {
+    Ring ring;
+    for (const PieceCorner& corner : piece) ring.push_back(corner.at);
+    areas.push_back(ring_moments(ring, ring[0]).area);
+  }
+  std::sort(areas.begin(), areas.end());
+  return areas;
+}
+
+void check_alike(const std::vector<double>& areas, const std::vector<double>& others) {
+  REQUIRE(areas.size() == others.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) CHECK(areas[i] == Approx(others[i]).margin(1e-9));
+}
+
 }  // namespace
 
 TEST_CASE("bodies fall into convex pieces that keep area, boundary and cuts", "[geometry][pieces]") {
@@ -230,22 +272,26 @@ TEST_CASE("a cut runs along the inner bisector of its reflex vertex", "[geometry
 
 TEST_CASE("ragged bodies of any outline are cut", "[geometry][pieces]") {
   std::mt19937 random(20);
-  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
-  const double pi = std::acos(-1.0);
   for (int body = 0; body < 200; ++body) {
     INFO("body " << body);
-    const int corners = 5 + static_cast<int>(random() % 30);
-    Ring outer, hole;
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * pi * (i + 0.8 * uniform()) / corners, radius = 1.5 + 3 * uniform();
-      outer.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    const int hole_corners = 3 + static_cast<int>(random() % 5);
-    for (int i = 0; i < hole_corners; ++i) {
-      const double angle = -2 * pi * i / hole_corners, radius = 0.2 + 0.3 * uniform();
-      hole.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
+    const Ring outer = ragged(random), hole = small_hole(random);
     check_rules(outer, body % 2 == 0 ? std::vector<Ring>{} : std::vector<Ring>{hole});
+  }
+}
+
+TEST_CASE("pieces are the same from whichever corner, and in whichever direction, a body is listed",
+          "[geometry][pieces]") {
+  std::mt19937 random(21);
+  for (int body = 0; body < 100; ++body) {
+    INFO("body " << body);
+    const Ring outer = ragged(random);
+    const std::vector<double> areas = sorted_areas(convex_pieces(loop_of(outer, 0), {}));
+    Ring other = outer;
+    std::rotate(other.begin(), other.begin() + 1 + body % 4, other.end());
+    check_alike(areas, sorted_areas(convex_pieces(loop_of(other, 0), {})));
+    for (Vec2& corner : other) corner.x = -corner.x;
+    std::reverse(other.begin(), other.end());
+    check_alike(areas, sorted_areas(convex_pieces(loop_of(other, 0), {})));
   }
 }
 
