@@ -91,7 +91,8 @@ TEST_CASE("Results that are cut off or changed after a checkpoint are not contin
   REQUIRE(call.code == 5);
   const std::filesystem::path history = scratch / "full/history.csv";
   const std::string whole = read_whole_file(history);
-  write_whole_file(history, whole.substr(0, whole.size() / 2));
+  // How early the state is that was kept depends on the machine; the first words are too little for any.
+  write_whole_file(history, whole.substr(0, 10));
   call = call_talus(scratch.folder(), {"resume", "full", "--quiet"});
   CHECK((call.code == 2 || call.code == 5));
   CHECK_THAT(call.err, Contains("history.csv"));
