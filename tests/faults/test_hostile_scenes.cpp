@@ -101,8 +101,7 @@ const Hostile hostile_scenes[] = {
 
 }  // namespace
 
-TEST_CASE("Scenes that ask for everything end in words, in modest memory and time",
-          "[faults][slow_sanitised]") {
+TEST_CASE("Scenes that ask for everything end in words, in modest memory and time", "[faults]") {
   const Scratch scratch;
   for (const Hostile& hostile : hostile_scenes) {
     CAPTURE(hostile.name);

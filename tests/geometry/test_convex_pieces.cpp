@@ -279,6 +279,26 @@ TEST_CASE("ragged bodies of any outline are cut", "[geometry][pieces]") {
   }
 }
 
+TEST_CASE("frames are cut at any angle, where cuts meet at one point and run along each other",
+          "[geometry][pieces]") {
+  std::mt19937 random(22);
+  for (int body = 0; body < 400; ++body) {
+    const int columns = 2 + body % 3, rows = 2 + body % 2;
+    const double angle = 2 * pi * uniform(random);
+    INFO(columns << " x " << rows << " windows turned by " << angle);
+    std::vector<Ring> windows;
+    for (int i = 0; i < columns * rows; ++i) {
+      const double left = 1 + 2 * (i % columns), low = 1 + 2 * static_cast<double>(i / columns);
+      Ring window{{left, low}, {left, low + 1}, {left + 1, low + 1}, {left + 1, low}};
+      std::rotate(window.begin(), window.begin() + static_cast<int>(random() % 4), window.end());
+      windows.push_back(turned(window, angle));
+    }
+    std::shuffle(windows.begin(), windows.end(), random);
+    const double width = 2 * columns + 1, height = 2 * rows + 1;
+    check_rules(turned({{0, 0}, {width, 0}, {width, height}, {0, height}}, angle), windows);
+  }
+}
+
 TEST_CASE("pieces are the same from whichever corner, and in whichever direction, a body is listed",
           "[geometry][pieces]") {
   std::mt19937 random(21);
