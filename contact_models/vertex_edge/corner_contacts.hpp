@@ -28,6 +28,13 @@ struct PiecePairGeometry {
   Piece piece[2];
 };
 
+/// Of the edges that meet in a vertex, the one that lies flatter on a side along `along`.
+inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along) {
+  if (own.is_strip()) return 0;
+  const std::uint32_t before = own.previous(v);
+  return dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
+}
+
 /// Vertices that stand on (or, within `bond_reach`, just above) a side of the other piece. A corner against a
 /// corner is resolved to an edge as in DDA: only sides that face the corner can carry it, and of those the
 /// one it is least deep behind; where both corners then stand on each other's edges each spring counts half.
@@ -46,6 +53,7 @@ class CornerFinder {
         stand(own, other, v, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 1}, found);
       }
     }
+    leave_to_ends(geometry, found, first);
     for (std::size_t i = first; i < found.size(); ++i) {
       for (std::size_t j = i + 1; j < found.size(); ++j) {
         if (mutual(geometry, found[i], found[j])) found[i].share = found[j].share = 0.5;
@@ -94,8 +102,7 @@ class CornerFinder {
       if (other.depth(k, at) < -slack) return;
     }
     contact.lever = other.lever(contact.side, at);
-    contact.tributary = own.is_strip() ? half_facing(own, other.tangent(contact.side))
-                                       : tributary_length(own, other, v, contact.side);
+    contact.tributary = tributary_length(own, other, v, contact.side);
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
@@ -115,26 +122,44 @@ class CornerFinder {
     return ends_at(p, q) && ends_at(q, p);
   }
 
-  /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
-  /// of a flat contact carry α_N L together; at least a twentieth of the edge, for a corner that meets a
-  /// corner.
-  static double tributary_length(const Piece& own, const Piece& other, std::uint32_t v, std::uint32_t side) {
-    const Point along = other.tangent(side);
-    const std::uint32_t before = own.previous(v);
-    const std::uint32_t edge = dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
-    const double here = dot(along, own.at(v) - other.at(side));
-    const Point far_end = own.at(edge == v ? own.next(v) : before);
-    const double there = dot(along, far_end - other.at(side));
-    const auto [low, high] = straight_run(other, side);
-    const double shadow = std::min(high, std::max(here, there)) - std::max(low, std::min(here, there));
-    return std::max(shadow, 0.1 * own.length(edge)) / 2;
+  /// Between a body of many elements and one piece both the ends of a side and the corners above it bear,
+  /// each half of what faces the other. Where both ends stand they bear the whole side, and a corner flush
+  /// with one of them no more than keeps it known.
+  static void leave_to_ends(const PiecePairGeometry& geometry, std::vector<CornerContact>& found,
+                            std::size_t first) {
+    const auto of_strip = [&](std::uint32_t body) { return geometry.piece[body].is_strip(); };
+    if (of_strip(0) == of_strip(1)) return;
+    const auto start = found.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto ends = std::count_if(
+        start, found.end(), [&](const CornerContact& contact) { return of_strip(contact.vertex_body); });
+    if (ends < 2) return;
+    for (auto contact = start; contact != found.end(); ++contact) {
+      const std::uint32_t body = contact->vertex_body;
+      if (of_strip(body)) continue;
+      const Piece &own = geometry.piece[body], &other = geometry.piece[1 - body];
+      const std::uint32_t edge = flatter_edge(own, contact->vertex, other.tangent(contact->side));
+      contact->tributary = least_tributary(own.length(edge), other.length(contact->side));
+    }
   }
 
-  /// Half of a strip's side, as far as it faces another: a side that stands upright on the other, at the end
-  /// of a base, carries nothing there, whichever way it leans by a hair.
-  static double half_facing(const Piece& strip, Point along) {
-    return strip.length(0) / 2 * std::abs(dot(strip.tangent(0), along));
+  /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
+  /// of a flat contact carry α_N L together.
+  static double tributary_length(const Piece& own, const Piece& other, std::uint32_t v, std::uint32_t side) {
+    const Point along = other.tangent(side);
+    // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
+    if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
+    const std::uint32_t edge = flatter_edge(own, v, along);
+    const double start = dot(along, own.at(edge) - other.at(side));
+    const double end = dot(along, own.at(own.next(edge)) - other.at(side));
+    const auto [low, high] = straight_run(other, side);
+    const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
+    // A side that stands upright on the other, at the end of a base, carries nothing there.
+    if (own.is_strip()) return std::max(shadow, 0.0) / 2;
+    return std::max(shadow / 2, least_tributary(own.length(edge), high - low));
   }
+
+  /// A twentieth of the shorter edge: for a corner that meets a corner, or comes alone.
+  static double least_tributary(double own, double other) { return 0.05 * std::min(own, other); }
 
   /// The straight stretch of boundary a side belongs to, along its tangent from its start: collinear
   /// neighbours count as one, so that passing from one to the next changes nothing.

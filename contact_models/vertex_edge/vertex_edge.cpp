@@ -274,10 +274,7 @@ class VertexEdge final : public ContactModel {
   /// The interface of the edge with the flatter of the vertex's own edges.
   static Interface interface_of(const Interfaces& interfaces, const Piece& own, const Piece& other,
                                 const CornerContact& contact) {
-    const std::uint32_t before = contact.vertex == 0 ? own.size() - 1 : contact.vertex - 1;
-    const Point along = other.tangent(contact.side);
-    const bool is_before = dot(own.tangent(before), along) < dot(own.tangent(contact.vertex), along);
-    const std::uint32_t edge = own.is_strip() ? 0 : is_before ? before : contact.vertex;
+    const std::uint32_t edge = flatter_edge(own, contact.vertex, other.tangent(contact.side));
     const std::uint32_t row =
         interfaces.row[own.surface(edge) * interfaces.surface_count + other.surface(contact.side)];
     return read(interfaces.value + row * interfaces.parameter_count);

@@ -170,3 +170,30 @@ TEST_CASE("A body of many elements that leans by a hair stands on its base alone
   CHECK(simulation.point_motion(1, {0, 0}).displacement.y == Approx(-0.4e-3).epsilon(0.06));
   CHECK(simulation.point_motion(1, {1, 0}).displacement.y == Approx(-1.6e-3).epsilon(0.03));
 }
+
+TEST_CASE("A block on a body of many elements meets alpha L, wherever its corners stand between their sides",
+          "[vertex_edge]") {
+  const double wide = GENERATE(0.3, 1.0);
+  const double left = GENERATE(0.07, 0.21);
+  const std::string size = GENERATE("0.25", "1");
+  INFO(wide << " m from " << left << " m on elements of " << size << " m");
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.cover = "block";
+  text.gravity = "[0, -10]";
+  text.material = R"("density": 2000, "model": "linear_elastic", "young_modulus": 2e10, "poisson_ratio": 0)";
+  text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                      "normal_damping": 0.5, "tangential_damping": 0.5)";
+  text.bodies = box("floor", -4, -3, 5, -1, R"("fixed": true)") + "," +
+                box("ground", -2, -1, 3, 0,
+                    R"("cover": {"model": "hexagonal", "size": )" + size + R"(, "angle": 11})") +
+                "," + box("block", left, 0, left + wide, 1);
+  text.rest = R"("damping": 30,)";
+  text.time = R"({"end": 0.2})";
+  const Simulation simulation = run_to_end(text);
+  const Vec2 below{left + wide / 2, 0};
+  const double sunk =
+      simulation.point_motion(1, below).displacement.y - simulation.point_motion(2, below).displacement.y;
+  // The least that a corner bears comes on top, and a narrow block leans where its ends differ.
+  CHECK(sunk == Approx(2000 * 10 / 1e8).epsilon(wide < 1 ? 0.05 : 0.01));
+}
