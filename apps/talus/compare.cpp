@@ -89,7 +89,7 @@ Usage usage_of_compare() {
       "curves to compare with as well: 't [s]' and columns named as in history.csv")(
       "at", po::value<std::vector<double>>()->value_name("T"),
       "tell the deviations at this time too, s; may be given several times")(
-      "out", po::value<std::string>()->value_name("DIR"),
+      "out,o", po::value<std::string>()->value_name("DIR"),
       "folder for the results (default: out/<scene name>-compare)")(
       "overwrite", "replace results that the folder holds already")(
       "threads", po::value<std::string>()->value_name("N"),

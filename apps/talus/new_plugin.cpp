@@ -145,7 +145,7 @@ Usage usage_of_new_plugin() {
       "KIND NAME",
       "  talus new-plugin contact soft_contact\n"
       "  cmake -S soft_contact -B soft_contact/build && cmake --build soft_contact/build\n"};
-  usage.options.add_options()("out", po::value<std::string>()->value_name("DIR"),
+  usage.options.add_options()("out,o", po::value<std::string>()->value_name("DIR"),
                               "folder to write, which must not exist (default: NAME)");
   add_plugin_path(usage);
   return usage;

@@ -43,7 +43,7 @@ Usage usage_of_run() {
       "SCENE",
       "  talus run scenes/incline.json --set /time/end=3 --out out/incline-3s\n"
       "  talus run scenes/brick_wall.json --threads 2 --overwrite\n"};
-  usage.options.add_options()("out", po::value<std::string>()->value_name("DIR"),
+  usage.options.add_options()("out,o", po::value<std::string>()->value_name("DIR"),
                               "folder for the results (default: out/<scene name>)")(
       "overwrite", "replace results that the folder holds already")(
       "threads", po::value<std::string>()->value_name("N"),

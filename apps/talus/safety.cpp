@@ -169,7 +169,7 @@ Usage usage_of_safety() {
       "  talus safety slope.json --tolerance 0.002 --set /time/end=5\n"};
   usage.options.add_options()("tolerance", po::value<double>()->value_name("SHARE"),
                               "how near the factor is to be found (default: 0.01)")(
-      "out", po::value<std::string>()->value_name("DIR"), "folder for the results")(
+      "out,o", po::value<std::string>()->value_name("DIR"), "folder for the results")(
       "overwrite", "replace results that the folder holds already")(
       "threads", po::value<std::string>()->value_name("N"),
       "threads to use (default: 1; same bits for any number)");

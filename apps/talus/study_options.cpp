@@ -58,7 +58,7 @@ void add_study_options(Usage& usage) {
       "curve to measure errors from (default: the run that did the most work)")(
       "metric", po::value<std::string>()->value_name("MONITOR.QUANTITY"),
       "what errors are of (default: the first speed)")(
-      "out", po::value<std::string>()->value_name("DIR"),
+      "out,o", po::value<std::string>()->value_name("DIR"),
       "folder for the results (default: out/<scene name>-study)")(
       "repeat", po::value<int>()->value_name("N")->default_value(1),
       "make each run N times, all of them in turn, and take the median of their cost")(

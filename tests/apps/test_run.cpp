@@ -115,7 +115,7 @@ TEST_CASE("a run tells and records what slept", "[apps][run]") {
   CHECK(sleep["velocity_bound [m/s]"] == Approx(speed + acceleration * longest));
   CHECK(sleep["displacement_bound [m]"] == Approx(longest * (speed + acceleration * longest / 2)));
 
-  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "awake"}).code == 0);
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "-o", "awake"}).code == 0);
   CHECK_FALSE(json_of(scratch / "awake/run.json").contains("sleep"));
 }
 

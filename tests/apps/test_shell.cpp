@@ -51,6 +51,7 @@ TEST_CASE("bash completes commands, options, their values and files", "[apps][sh
   CHECK(offered(scratch, {"run", "--simd", "=", "s"}) == Offered{"scalar"});
   CHECK(offered(scratch, {"run", "slo"}) == Offered{"slopes", "slope.json"});
   CHECK(offered(scratch, {"run", "--out", "slo"}) == Offered{"slopes"});
+  CHECK(offered(scratch, {"run", "-o", "slo"}) == Offered{"slopes"});
   CHECK(offered(scratch, {"blocks", "-o", "slope.t"}) == Offered{"slope.txt"});
   CHECK(offered(scratch, {"help", "vali"}) == Offered{"validate"});
   CHECK(offered(scratch, {"completion", ""}) == Offered{"bash"});
