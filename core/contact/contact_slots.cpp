@@ -7,7 +7,7 @@ namespace talus {
 namespace {
 
 /// With more, what laws keep of them comes from further away than it takes to find it out anew.
-constexpr std::size_t most_planned_pairs = 16384;
+constexpr std::size_t most_planned_pairs = 32768;
 
 }  // namespace
 

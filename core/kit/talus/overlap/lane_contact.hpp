@@ -197,7 +197,7 @@ class LaneContact {
                           const LaneGroup<corners>& group) {
     // Triangles and quadrilaterals, which most blocks are, need no look at which lane has which side.
     if constexpr (corners == 4) {
-      const int sides = group.rows[0].sides, other_sides = group.rows[1].sides;
+      const int sides = group.sides[0], other_sides = group.sides[1];
       if (sides == 4 && other_sides == 4) return evaluate_lanes<4, 4>(law, batch, loads, group);
       if (sides == 3 && other_sides == 3) return evaluate_lanes<3, 3>(law, batch, loads, group);
       if (sides == 3 && other_sides == 4) return evaluate_lanes<3, 4>(law, batch, loads, group);
@@ -209,10 +209,10 @@ class LaneContact {
   template <int sides, int other_sides>
   LaneBits evaluate_lanes(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
                           const LaneGroup<corners>& g) {
-    piece_[0].template read<sides>(batch.boundaries.corner, g.rows[0],
-                                   {simd::load(g.offset_x[0]), simd::load(g.offset_y[0])});
-    piece_[1].template read<other_sides>(batch.boundaries.corner, g.rows[1],
-                                         {simd::load(g.offset_x[1]), simd::load(g.offset_y[1])});
+    rows_[0].template lay_out<sides>(g.places[0]);
+    rows_[1].template lay_out<other_sides>(g.places[1]);
+    piece_[0].template read<sides>(batch.boundaries.corner, rows_[0], g.offset(0));
+    piece_[1].template read<other_sides>(batch.boundaries.corner, rows_[1], g.offset(1));
     const LaneParameters interface(law, batch.interfaces, g);
 
     const Pack share = g.averaged ? 0.5 : 1.0;
@@ -424,19 +424,31 @@ class LaneContact {
     };
     close(piece_[0], corners_of(sides, corners));
     close(piece_[1], corners_of(other_sides, corners));
-    g.template write_loads<sides, other_sides>(loads, wanted, piece_);
+    g.template write_loads<sides, other_sides>(loads, wanted, rows_, piece_);
+    double *report_row[lanes], *row[lanes], *second_row[lanes];
     PairReport spare;
     double spare_history[friction_doubles];
-    double *report_row[lanes], *row[lanes], *second_row[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const bool here = (wanted >> lane & 1) != 0;
-      PairReport& to = here ? loads.pairs[g.pair[lane]] : spare;
+    const auto write_to = [&](int lane, PairReport& to, [[maybe_unused]] double* history,
+                              [[maybe_unused]] std::uint32_t slot) {
       to.contact_count = 1;
       to.gap = 0;
       report_row[lane] = &to.penetration;
       if constexpr (Law::frictional) {
-        row[lane] = here ? loads.history + std::size_t{g.slot[lane]} * friction_doubles : spare_history;
+        row[lane] = history + std::size_t{slot} * friction_doubles;
         second_row[lane] = row[lane] + 4;
+      }
+    };
+    const auto write_to_pair = [&](int lane) {
+      write_to(lane, loads.pairs[g.pair[lane]], loads.history, g.slot[lane]);
+    };
+    if (wanted == all_lanes) {
+      for (int lane = 0; lane < lanes; ++lane) write_to_pair(lane);
+    } else {
+      for (int lane = 0; lane < lanes; ++lane) {
+        if ((wanted >> lane & 1) != 0)
+          write_to_pair(lane);
+        else
+          write_to(lane, spare, spare_history, 0);
       }
     }
     const Pack energies[4] = {report.penetration, report.stored, report.slip_loss, report.damping_power};
@@ -481,6 +493,7 @@ class LaneContact {
   std::vector<TouchingPair> sorted_;
   LaneSieve<corners> sieve_;
   LaneGroup<corners> group_;  ///< of pairs that keep no lanes
+  LaneRows<corners> rows_[2];
   LanePiece<corners> piece_[2];
   LaneCells<corners> cells_[2];
   int roles_ = 1;

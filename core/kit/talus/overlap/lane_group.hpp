@@ -59,14 +59,20 @@ struct LaneGroup {
   LaneBits swapped;     ///< piece 0 is that of body b
   bool averaged;        ///< both roles count half
   bool alike;           ///< all have one interface
-  LaneRows<corners> rows[2];
-  std::uint32_t pair[lanes];                                  ///< in the batch
-  std::uint32_t slot[lanes];                                  ///< of its contact
-  std::int32_t load_shift[2][lanes];                          ///< [piece] from its corners to their loads
-  std::uint32_t interface_row[lanes];                         ///< Interfaces::row
-  alignas(64) double offset_x[2][lanes], offset_y[2][lanes];  ///< m, of pieces
+  int sides[2];         ///< LanePlaces::sides()
+  LanePlaces places[2];
+  std::uint32_t pair[lanes];                            ///< in the batch
+  std::uint32_t slot[lanes];                            ///< of its contact
+  std::uint32_t interface_row[lanes];                   ///< Interfaces::row
+  alignas(64) double offset_x[lanes], offset_y[lanes];  ///< m, of the piece of body b
   alignas(64) double reduced_mass[lanes], clear_depth[lanes];
   alignas(64) double starts[lanes];  ///< code without pattern, as TouchingPair::remembered() reads it
+
+  /// m, to be added to the places of a piece.
+  Packs2 offset(int piece) const {
+    const Mask of_b = simd::mask_of(piece == 0 ? swapped : all_lanes & ~swapped);
+    return {simd::only_where(of_b, simd::load(offset_x)), simd::only_where(of_b, simd::load(offset_y))};
+  }
 
   /// Fills all lanes, those beyond the `count`-th pair with the first.
   void take(const ContactBatch& batch, const TouchingPair* touching, int count) {
@@ -82,8 +88,8 @@ struct LaneGroup {
     if (live == all_lanes || touching.averaged(batch) != averaged) return false;
     const BodyPair& at = batch.pairs[touching.pair];
     for (int p = 0; p < 2; ++p) {
-      if (rows[p].sides != mixed &&
-          at.plain_corners[at.master_share == 0 ? 1 - p : p] != static_cast<std::uint32_t>(rows[p].sides))
+      if (sides[p] != mixed &&
+          at.plain_corners[at.master_share == 0 ? 1 - p : p] != static_cast<std::uint32_t>(sides[p]))
         return false;
     }
     place(batch, touching, std::countr_one(live));
@@ -93,10 +99,11 @@ struct LaneGroup {
 
   /// Loads of the lanes of `wanted` on their corners, from those on both pieces.
   template <int sides, int other_sides>
-  void write_loads(const ContactLoads& loads, LaneBits wanted, const LanePiece<corners>* piece) const {
+  void write_loads(const ContactLoads& loads, LaneBits wanted, const LaneRows<corners>* rows,
+                   const LanePiece<corners>* piece) const {
     if constexpr (sides != mixed) {
-      write_alike<sides>(loads, 0, wanted, piece[0].corner);
-      write_alike<other_sides>(loads, 1, wanted, piece[1].corner);
+      write_alike<sides>(loads, wanted, rows[0], piece[0].corner);
+      write_alike<other_sides>(loads, wanted, rows[1], piece[1].corner);
     } else {
       write_any(loads, 0, wanted, piece[0].corner);
       write_any(loads, 1, wanted, piece[1].corner);
@@ -104,11 +111,6 @@ struct LaneGroup {
   }
 
  private:
-  /// Bytes of loads for each double of corners, which LaneRows::row counts.
-  static constexpr std::size_t doubles_of_corner = sizeof(BoundaryCorner) / sizeof(double);
-  static constexpr std::size_t bytes_of_row = sizeof(CornerLoad) / doubles_of_corner;
-  static_assert(bytes_of_row * doubles_of_corner == sizeof(CornerLoad));
-
   void place(const ContactBatch& batch, const TouchingPair& touching, int lane) {
     const BodyPair& at = batch.pairs[touching.pair];
     const bool swap = at.master_share == 0;
@@ -126,44 +128,40 @@ struct LaneGroup {
       const int piece = swap ? 1 - body : body;
       // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
       const std::uint32_t load_start = at.load_start + (body == 0 ? 0U : at.plain_corners[0]);
-      load_shift[piece][lane] = static_cast<std::int32_t>(load_start - at.corner_start[body]);
-      rows[piece].place(lane, at.corner_start[body], at.plain_corners[body], touching.start(body));
-      offset_x[piece][lane] = body == 0 ? 0 : at.offset_x;
-      offset_y[piece][lane] = body == 0 ? 0 : at.offset_y;
+      places[piece].load_shift[lane] = load_start - at.corner_start[body];
+      places[piece].place(lane, at.corner_start[body], at.plain_corners[body], touching.start(body));
     }
+    offset_x[lane] = at.offset_x;
+    offset_y[lane] = at.offset_y;
     reduced_mass[lane] = at.reduced_mass;
     clear_depth[lane] = at.clear_depth;
     starts[lane] = 1 + touching.start(0) + 8 * touching.start(1);
   }
 
   void compare() {
-    for (LaneRows<corners>& piece : rows) piece.lay_out();
-    if (rows[0].sides == mixed || rows[1].sides == mixed) {
-      for (LaneRows<corners>& piece : rows) piece.mark_real();
-    }
+    for (int p = 0; p < 2; ++p) sides[p] = places[p].sides();
     std::uint32_t other = 0;
     for (const std::uint32_t row : interface_row) other |= row ^ interface_row[0];
     alike = other == 0;
   }
 
-  /// Of lanes that all have three or four corners. Those that are not wanted write beside.
+  /// Of lanes that all have three or four corners.
   template <int sides>
-  void write_alike(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* corner) const {
-    CornerLoad beside[sides];
-    const auto place_of = [](CornerLoad* first, std::ptrdiff_t shift) {
-      return reinterpret_cast<char*>(first) + shift * static_cast<std::ptrdiff_t>(sizeof(CornerLoad));
-    };
-    char* from[lanes];  // where the load of the host's first corner would be
-    for (int lane = 0; lane < lanes; ++lane) from[lane] = place_of(loads.corner, load_shift[p][lane]);
-    if (wanted != all_lanes) {
-      each_lane(all_lanes & ~wanted, [&](int lane) {
-        from[lane] = place_of(beside, -static_cast<std::ptrdiff_t>(rows[p].first[lane]));
-      });
+  static void write_alike(const ContactLoads& loads, LaneBits wanted, const LaneRows<corners>& rows,
+                          const LaneCorner* corner) {
+    double* const first = reinterpret_cast<double*>(loads.corner);
+    double* to[lanes];
+    if (wanted == all_lanes) {
+      for (int i = 0; i < sides; ++i) {
+        for (int lane = 0; lane < lanes; ++lane) to[lane] = first + rows.load[i][lane];
+        simd::scatter_points(corner[i].load, to);
+      }
+      return;
     }
+    CornerLoad beside;
     for (int i = 0; i < sides; ++i) {
-      double* to[lanes];
       for (int lane = 0; lane < lanes; ++lane)
-        to[lane] = reinterpret_cast<double*>(from[lane] + std::size_t{rows[p].row[i][lane]} * bytes_of_row);
+        to[lane] = (wanted >> lane & 1) != 0 ? first + rows.load[i][lane] : &beside.x;
       simd::scatter_points(corner[i].load, to);
     }
   }
@@ -176,13 +174,13 @@ struct LaneGroup {
       simd::store(from[i].load.y, y[i]);
     }
     each_lane(wanted, [&](int lane) {
-      const auto size = static_cast<int>(rows[p].count[lane]);
+      const auto size = static_cast<int>(places[p].count[lane]);
       for (int i = size; i < corners; ++i) {
         x[0][lane] += x[i][lane];
         y[0][lane] += y[i][lane];
       }
-      CornerLoad* const to = loads.corner + (std::ptrdiff_t{rows[p].first[lane]} + load_shift[p][lane]);
-      auto corner = static_cast<int>(rows[p].start[lane]);
+      CornerLoad* const to = loads.corner + std::uint32_t{places[p].first[lane] + places[p].load_shift[lane]};
+      auto corner = static_cast<int>(places[p].start[lane]);
       for (int i = 0; i < size; ++i) {
         to[corner] = {x[i][lane], y[i][lane]};
         if (++corner == size) corner = 0;

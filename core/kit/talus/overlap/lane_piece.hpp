@@ -23,43 +23,54 @@ constexpr int corners_of(int sides, int corners) {
   return sides == mixed ? corners : sides;
 }
 
-/// Where the corners of a piece are in the host's array, a piece in each lane. Where lanes are mixed, a piece
-/// with fewer corners than the widest begins again after its last: sides that own nothing.
-template <int corners>
-struct LaneRows {
-  Numbers row[corners];         ///< doubles from Boundaries::corner on
-  std::uint32_t real[corners];  ///< of mixed lanes: which have this side, as bits
-  Numbers first;                ///< corner of all that is corner 0 of the piece
-  Numbers start;                ///< the corner of the piece that is called 0 here
-  Numbers count;                ///< of corners
-  int sides;                    ///< 3 or 4 if all lanes have so many, else mixed
+/// Where a piece is in the host's array, a piece in each lane, in few bytes: lanes of a large scene come from
+/// far in every step.
+struct LanePlaces {
+  Numbers first;              ///< corner of all that is corner 0 of the piece
+  Numbers load_shift;         ///< from its corners to their loads
+  std::uint8_t start[lanes];  ///< the corner of the piece that is called 0 here
+  std::uint8_t count[lanes];  ///< of corners
 
   void place(int lane, std::uint32_t first_corner, std::uint32_t corner_count,
              std::uint32_t start_corner = 0) {
     first[lane] = first_corner;
-    start[lane] = start_corner;
-    count[lane] = corner_count;
+    start[lane] = static_cast<std::uint8_t>(start_corner);
+    count[lane] = static_cast<std::uint8_t>(corner_count);
   }
 
-  /// To be called once all lanes have their place.
-  void lay_out() {
-    constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double);
-    Numbers turn = start;
-    for (Numbers& at : row) {
-      at = (first + turn) * doubles;
+  /// 3 or 4 if all lanes have so many, else mixed.
+  int sides() const {
+    std::uint32_t other = 0;
+    for (int lane = 1; lane < lanes; ++lane) other |= count[lane] ^ count[0];
+    return other != 0 || count[0] > 4 ? mixed : count[0];
+  }
+};
+
+/// Where the corners of the pieces are. Where lanes are mixed, a piece with fewer corners than the widest
+/// begins again after its last: sides that own nothing.
+template <int corners>
+struct LaneRows {
+  Numbers row[corners];         ///< doubles from Boundaries::corner on
+  Numbers load[corners];        ///< doubles from ContactLoads::corner on, of lanes that are not mixed
+  std::uint32_t real[corners];  ///< of mixed lanes: which have this side, as bits
+
+  template <int sides>
+  void lay_out(const LanePlaces& at) {
+    constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double),
+                            doubles_of_load = sizeof(CornerLoad) / sizeof(double);
+    Numbers turn = simd::numbers(at.start);
+    const Numbers count = simd::numbers(at.count);
+    for (int i = 0; i < corners_of(sides, corners); ++i) {
+      row[i] = (at.first + turn) * doubles;
+      load[i] = (at.first + turn + at.load_shift) * doubles_of_load;
       turn += 1;
       turn = turn == count ? Numbers{} : turn;
     }
-    std::uint32_t other = 0;
-    for (int lane = 1; lane < lanes; ++lane) other |= count[lane] ^ count[0];
-    sides = other != 0 || count[0] > 4 ? mixed : static_cast<int>(count[0]);
-  }
-
-  /// To be called where the pieces of a pair are not all alike.
-  void mark_real() {
-    for (std::uint32_t i = 0; i < corners; ++i) {
-      real[i] = 0;
-      for (int lane = 0; lane < lanes; ++lane) real[i] |= (i < count[lane] ? 1U : 0U) << lane;
+    if constexpr (sides == mixed) {
+      for (int i = 0; i < corners; ++i) {
+        real[i] = 0;
+        for (int lane = 0; lane < lanes; ++lane) real[i] |= (i < at.count[lane] ? 1U : 0U) << lane;
+      }
     }
   }
 

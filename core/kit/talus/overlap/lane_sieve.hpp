@@ -15,18 +15,17 @@ class LaneSieve {
 
   /// `numbers` of pairs in the batch; lanes from `count` on repeat the first.
   void look(const ContactBatch& batch, const std::uint32_t* numbers, int count) {
-    LaneRows<corners> rows[2];
+    LanePlaces at[2]{};
     const double* place[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const BodyPair& pair = batch.pairs[numbers[lane < count ? lane : 0]];
       for (int body = 0; body < 2; ++body)
-        rows[body].place(lane, pair.corner_start[body], pair.plain_corners[body]);
+        at[body].place(lane, pair.corner_start[body], pair.plain_corners[body]);
       place[lane] = &pair.offset_x;
     }
-    for (LaneRows<corners>& piece : rows) piece.lay_out();
     const BoundaryCorner* const corner = batch.boundaries.corner;
     const Packs2 offset = simd::gather_points(place);
-    simd::store(-least_reach_of_both(corner, rows, offset), gap);
+    simd::store(-least_reach_of_both(corner, at, offset), gap);
   }
 
   /// The corner before the side of a body that faces the other.
@@ -36,16 +35,17 @@ class LaneSieve {
   }
 
  private:
-  Pack least_reach_of_both(const BoundaryCorner* corner, LaneRows<corners>* rows, Packs2 offset) {
+  Pack least_reach_of_both(const BoundaryCorner* corner, const LanePlaces* at, Packs2 offset) {
     if constexpr (corners == 4) {
-      if (rows[0].sides == 4 && rows[1].sides == 4) return least_reach_of_all<4>(corner, rows, offset);
+      if (at[0].sides() == 4 && at[1].sides() == 4) return least_reach_of_all<4>(corner, at, offset);
     }
-    for (int p = 0; p < 2; ++p) rows[p].mark_real();
-    return least_reach_of_all<mixed>(corner, rows, offset);
+    return least_reach_of_all<mixed>(corner, at, offset);
   }
 
   template <int sides>
-  Pack least_reach_of_all(const BoundaryCorner* corner, const LaneRows<corners>* rows, Packs2 offset) {
+  Pack least_reach_of_all(const BoundaryCorner* corner, const LanePlaces* at, Packs2 offset) {
+    LaneRows<corners> rows[2];
+    for (int p = 0; p < 2; ++p) rows[p].template lay_out<sides>(at[p]);
     piece_[0].template read_shape<sides>(corner, rows[0], {0.0, 0.0});
     piece_[1].template read_shape<sides>(corner, rows[1], offset);
     return simd::min(least_reach<sides>(0), least_reach<sides>(1));

@@ -28,6 +28,10 @@ struct Packs2 {
   Pack x, y;
 };
 
+/// As many bytes, widened.
+inline Numbers numbers(const std::uint8_t* from) {
+  return (Numbers)_mm256_cvtepu8_epi32(_mm_loadu_si64(from));
+}
 inline Pack load(const double* from) {
   return _mm512_loadu_pd(from);
 }

@@ -26,6 +26,10 @@ struct Packs2 {
   Pack x, y;
 };
 
+/// As many bytes, widened.
+inline Numbers numbers(const std::uint8_t* from) {
+  return Numbers{*from};
+}
 inline Pack load(const double* from) {
   return *from;
 }
