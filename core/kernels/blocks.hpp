@@ -70,20 +70,25 @@ struct BlockUpdate {
   bool damped;
 };
 
+/// Σ p·M q over bodies, J/m, apart for translation x, y, rates xx, xy, yx, yy and spins.
+struct VelocityProducts {
+  double translation[2] = {0, 0}, strain[4] = {0, 0, 0, 0}, rotation = 0;
+
+  double all() const {
+    return (translation[0] + translation[1]) +
+           (rotation + ((strain[0] + strain[1]) + (strain[2] + strain[3])));
+  }
+};
+
 /// Sums over bodies, one after the other: however a chunk of them is divided into calls, and whether
 /// velocities at t_n are kept, the bits are the same.
 struct BlockSums {
-  double kinetic = 0;           ///< J/m, of uneven steps
-  double momentum[2] = {0, 0};  ///< kg/s, m v₋
-  double damped[2] = {0, 0};    ///< J/m, v·M v₋ and v·M v₊ with v at t_n, where damped
-  // Of even steps, J/m: twice the kinetic energy of translation x, y, of rates xx, xy, yx, yy and of spins.
-  double translation[2] = {0, 0}, strain[4] = {0, 0, 0, 0}, rotation = 0;
+  double kinetic = 0;              ///< J/m, of uneven steps
+  double momentum[2] = {0, 0};     ///< kg/s, m v₋
+  VelocityProducts across;         ///< v₋·M v₊ of even steps, twice the kinetic energy
+  VelocityProducts behind, ahead;  ///< v·M v₋ and v·M v₊ with v at t_n, where damped
 
-  double all_kinetic() const {
-    return kinetic + ((translation[0] + translation[1]) +
-                      (rotation + ((strain[0] + strain[1]) + (strain[2] + strain[3])))) /
-                         2;
-  }
+  double all_kinetic() const { return kinetic + across.all() / 2; }
 };
 
 struct BlockKernels {

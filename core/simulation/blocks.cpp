@@ -182,8 +182,8 @@ void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, B
   for (const kernels::BlockSums& part : sums_) {
     work.kinetic += part.all_kinetic();
     work.external_work += gravity_work(conditions, {part.momentum[0], part.momentum[1]});
-    work.damping_loss += conditions.damping * part.damped[0] * conditions.dt_behind / 2;
-    work.damping_loss_ahead += conditions.damping * part.damped[1] * conditions.dt_ahead / 2;
+    work.damping_loss += conditions.damping * part.behind.all() * conditions.dt_behind / 2;
+    work.damping_loss_ahead += conditions.damping * part.ahead.all() * conditions.dt_ahead / 2;
   }
 }
 
