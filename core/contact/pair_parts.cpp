@@ -61,13 +61,16 @@ void divide_into_batches(std::span<const BodyPair> pairs, int threads,
         pairs.subspan(first, std::min(pairs_of_wave(threads), pairs.size() - first));
     const std::size_t batches = shares * ((wave.size() + large - 1) / large);
     const std::uint64_t all = work_of_all(wave);
-    std::uint64_t before = 0;
-    for (std::size_t i = 0, batch = 1; i < wave.size(); ++i) {
-      if (i % pair_chunk == 0 && before * batches >= all * batch) {
+    std::uint64_t before = 0, batch = 1;
+    for (std::size_t i = 0; i < wave.size(); i += pair_chunk) {
+      const std::uint64_t here = work_of_all(wave.subspan(i, std::min(pair_chunk, wave.size() - i)));
+      // A batch ends at the chunk that begins nearest to its share of the work.
+      const auto shares_before = [&] { return (2 * before + here) * batches / (2 * all); };
+      if (i > 0 && shares_before() >= batch) {
         append_to(batch_begin, static_cast<std::uint32_t>(first + i));
-        batch = before * batches / all + 1;
+        batch = shares_before() + 1;
       }
-      before += work_of(wave[i]);
+      before += here;
     }
     append_to(batch_begin, static_cast<std::uint32_t>(first + wave.size()));
   }

@@ -75,6 +75,10 @@ void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
 
 void MotionState::clear_forces(const Model& model) {
   for (const std::uint32_t body : model.moving_bodies) forces[body] = {};
+  clear_patch_forces(model);
+}
+
+void MotionState::clear_patch_forces(const Model& model) {
   for (const std::uint32_t index : model.covered_bodies) {
     const Body& body = model.bodies[index];
     for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) patch_force[p] = {};

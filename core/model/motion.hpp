@@ -63,6 +63,7 @@ struct MotionState {
 
   /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
   void clear_forces(const Model& model);
+  void clear_patch_forces(const Model& model);  ///< those on patches alone
 
   /// Takes all velocities away.
   void stop();

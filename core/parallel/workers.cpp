@@ -127,15 +127,18 @@ bool Workers::take(const Loop& loop, std::size_t part, std::size_t& chunk) {
   }
 }
 
-/// Until the thread has done its part; not for long, and not at all for one that was not there for the loop
-/// before, because another program has its core.
-void Workers::wait_for(const Loop& loop, std::size_t thread) const {
+/// Whether there may be something left to do of the part of a thread. Waits for it, not for long, and not at
+/// all for one that was not there for the loop before, because another program has its core. What it has
+/// taken is not looked at for nothing: the line would have to come back to it for the next loop.
+bool Workers::wants_help(const Loop& loop, std::size_t thread) const {
   for (int i = 0; i < patience; ++i) {
     const std::int64_t behind =
         loops_since(done_[thread].loop_and_chunks.load(std::memory_order_relaxed), loop.number);
-    if (behind != 1) return;
+    if (behind <= 0) return false;
+    if (behind > 1) return true;
     relax();
   }
+  return true;
 }
 
 /// First the thread's own part, then what is left of those of others.
@@ -144,7 +147,7 @@ void Workers::take_part(const Loop& loop, std::size_t thread) {
   std::uint64_t done = 0;
   for (std::size_t i = 0; i < all; ++i) {
     const std::size_t part = (thread + i) % all;
-    if (i > 0) wait_for(loop, part);
+    if (i > 0 && !wants_help(loop, part)) continue;
     for (std::size_t chunk = 0; take(loop, part, chunk); ++done) loop.call(loop.context, chunk, thread);
     // Also of one that came too late: it was there.
     done_[thread].loop_and_chunks.store(counted(loop.number, done), std::memory_order_release);

@@ -83,7 +83,7 @@ class Workers {
 
   std::size_t begin_of_part(const Loop& loop, std::size_t part) const;
   bool take(const Loop& loop, std::size_t part, std::size_t& chunk);
-  void wait_for(const Loop& loop, std::size_t thread) const;
+  bool wants_help(const Loop& loop, std::size_t thread) const;
   bool are_done(const Loop& loop) const;
   void take_part(const Loop& loop, std::size_t thread);
 

@@ -125,14 +125,24 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
                                    MotionState& motion) {
   over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::SpeedExtremes here;
-    for (const auto [begin, end] : stretches)
+    for (const auto [begin, end] : stretches) {
+      const auto forces = motion.forces.begin();
+      std::fill(forces + static_cast<std::ptrdiff_t>(begin), forces + static_cast<std::ptrdiff_t>(end),
+                BodyForce{});
       kernels_.follow(blocks_.data(), motion.bodies.data(), drift.data(), model.reference_x.data(),
                       model.reference_y.data(), motion.corners.data(), begin, end, here);
+    }
     speeds_[number] = here;
   });
   kernels::SpeedExtremes all;
   for (const kernels::SpeedExtremes& part : speeds_) all.add(part);
+  if (!asleep_.empty()) {
+    for (const std::uint32_t body : moving_) {
+      if (is_asleep(body)) motion.forces[body] = {};
+    }
+  }
   for (const std::uint32_t body : others_) {
+    motion.forces[body] = {};
     if (is_asleep(body)) continue;
     motion.move_corners(model, body);
     if (in_contact_) motion.shape_boundary(model, body);

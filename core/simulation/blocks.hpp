@@ -22,7 +22,8 @@ class Blocks {
   bool is_asleep(std::uint32_t body) const { return !asleep_.empty() && asleep_[body] != 0; }
 
   void move(double dt, MotionState& motion);  ///< Eq. 22
-  /// Boundaries of all bodies follow (Eq. 11); returns how fast they are. `drift`: ContactStage::drift().
+  /// Boundaries of all bodies follow (Eq. 11), and no force is on any of them; returns how fast they are.
+  /// `drift`: ContactStage::drift().
   MotionState::Speeds follow(const Model& model, std::span<const kernels::CornerDrift> drift,
                              MotionState& motion);
   /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.

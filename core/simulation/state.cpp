@@ -100,7 +100,7 @@ void Simulation::State::forces() {
   to_be_seen = false;
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
-  motion.clear_forces(model);
+  motion.clear_patch_forces(model);
   speeds = blocks.follow(model, contacts.drift(), motion);  // Eq. 11
   check_numbers();
   if (sleep && !settling) sleep->watch(time, gravity(), workers, sleeping_parts());

@@ -67,6 +67,18 @@ TEST_CASE("one thread has as few batches as their size allows, others share the 
   CHECK(half_apart[4] - half_apart[3] > 400);
 }
 
+TEST_CASE("a batch ends at the chunk nearest to its share", "[contact][batches]") {
+  for (const std::size_t count :
+       {std::size_t{300}, std::size_t{1000}, std::size_t{2200}, std::size_t{4000}}) {
+    const std::vector<std::uint32_t> begin = batches(pairs_touching_from(0, count), 2);
+    REQUIRE(begin.size() == 5);
+    for (std::size_t i = 1; i < 4; ++i) {
+      CAPTURE(count, i);
+      CHECK(begin[i] == Approx(static_cast<double>(i * count) / 4).margin(pair_chunk / 2.0));
+    }
+  }
+}
+
 TEST_CASE("pairs are divided anew when contacts are elsewhere, and not before", "[contact][batches]") {
   std::vector<std::uint32_t> other;
   for (const int threads : {2, 3}) {
