@@ -10,7 +10,7 @@
 namespace talus::kernels::TALUS_KERNEL_LEVEL {
 namespace {
 
-/// See Quad of blocks.cpp.
+/// See Quad of quads.hpp.
 using Row [[gnu::vector_size(32)]] = double;
 
 inline void load_row(const double* from, Row& to) {
