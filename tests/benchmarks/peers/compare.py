@@ -150,11 +150,15 @@ def compare(arguments, blocks):
     return result
 
 
+def program_at(path):
+    return pathlib.Path(path).resolve()  # programs run in folders of their own
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sizes", default="504,5000", help="numbers of blocks")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--talus", default=ROOT / "build/release/bin/talus", type=pathlib.Path)
+    parser.add_argument("--talus", default=ROOT / "build/release/bin/talus", type=program_at)
     parser.add_argument("--box2d", default=ROOT / "build/release/bin/peer_box2d", type=pathlib.Path)
     parser.add_argument("--lammps", default="lmp")
     parser.add_argument("--json", type=pathlib.Path, help="write what was found here, too")
