@@ -147,17 +147,19 @@ void MotionState::shape_boundary(const Model& model, std::size_t body) {
 void MotionState::move_corners(const Model& model, std::size_t index) {
   const Body& body = model.bodies[index];
   if (body.kinematics == Kinematics::covered) {
-    const auto move = [&](const MaterialPoint& point, std::uint32_t c) {
+    // A side ends where the next one starts.
+    for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
+      const auto corner_of = [&](std::uint32_t s) {
+        return model.piece_start[body.piece_begin + s - body.side_begin];
+      };
+      const MaterialPoint& point = model.sides[side].start;
       const Vec2 moved = displacement(point), speed = velocity(point);
-      corners[c].x = point.reference.x + moved.x;
-      corners[c].y = point.reference.y + moved.y;
-      corners[c].vx = speed.x;
-      corners[c].vy = speed.y;
-    };
-    for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
-      const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
-      move(side.start, model.piece_start[piece]);
-      move(side.end, model.piece_start[piece] + 1);
+      for (const std::uint32_t c : {corner_of(side), corner_of(model.previous_side[side]) + 1}) {
+        corners[c].x = point.reference.x + moved.x;
+        corners[c].y = point.reference.y + moved.y;
+        corners[c].vx = speed.x;
+        corners[c].vy = speed.y;
+      }
     }
     return;
   }

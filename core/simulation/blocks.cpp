@@ -10,12 +10,13 @@
 namespace talus {
 namespace {
 
+/// Of a strip the first corner alone: the second is the first of the next one.
 kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body,
                                  std::span<const kernels::CornerDrift> drift) {
   kernels::SpeedExtremes all;
   for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
     const std::uint32_t begin = model.piece_start[piece],
-                        end = model.is_strip[piece] != 0 ? begin + 2 : model.piece_start[piece + 1];
+                        end = model.is_strip[piece] != 0 ? begin + 1 : model.piece_start[piece + 1];
     for (std::uint32_t c = begin; c < end; ++c) {
       const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
       const double off_x = vx - drift[c].x, off_y = vy - drift[c].y;
