@@ -32,8 +32,8 @@ void check_material_sweep(const Subject& subject, Trial& trial) {
                   "another outcome of the same call", "the same bits");
       };
       compare([&](SweptStrip& strip) { return strip.sweep(*law); });
-      compare([&](SweptStrip& strip) { return strip.sweep_as_list(*law, true); });
-      compare([&](SweptStrip& strip) { return strip.sweep_as_list(*law, false); });
+      compare([&](SweptStrip& strip) { return strip.sweep_as_chain(*law, true); });
+      compare([&](SweptStrip& strip) { return strip.sweep_as_chain(*law, false); });
     }
   }
 }

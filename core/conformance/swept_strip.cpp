@@ -38,21 +38,37 @@ double SweptStrip::sweep(const Material& law) {
                      force_x.data(),
                      force_y.data(),
                      force_x.data() + top,
-                     force_y.data() + top};
+                     force_y.data() + top,
+                     {}};
   std::copy(gradient.begin(), gradient.end(), given.gradient);
   return law.sweep(given);
 }
 
-double SweptStrip::sweep_as_list(const Material& law, bool beside) {
-  const std::uint32_t stride = beside ? 2 : 1, count = 2 * cells, all = 2 * cells + 2;
+double SweptStrip::sweep_as_chain(const Material& law, bool beside) {
+  const std::uint32_t stride = beside ? 2 : 1, all = 2 * cells + 2, top = cells + 1;
   const std::uint32_t to_y = beside ? 1 : all;
-  std::vector<std::uint32_t> corner[3];
-  std::vector<double> gradients[4], areas(count, area);
-  for (std::uint32_t e = 0; e < count; ++e) {
-    const std::array<std::uint32_t, 3> corners = corners_of(e);
-    for (std::size_t k = 0; k < 3; ++k) corner[k].push_back(stride * corners[k]);
-    for (std::size_t k = 0; k < 4; ++k) gradients[k].push_back(sign_of(e) * gradient[k]);
+  std::vector<std::uint32_t> corner;
+  std::vector<double> gradients[4], areas;
+  const auto add = [&](std::uint32_t at, double its_area, const std::array<double, 4>& its_gradient) {
+    corner.push_back(stride * at);
+    for (std::size_t k = 0; k < 4; ++k) gradients[k].push_back(its_gradient[k]);
+    areas.push_back(its_area);
+  };
+  const auto add_without_triangle = [&](std::uint32_t at) { add(at, 0, {}); };
+  const auto& g = gradient;
+  for (std::uint32_t i = 0; i < TriangleChain::links_before; ++i) add_without_triangle(0);
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    if (cell % 5 == 0) {  // a strip ends, and another begins
+      add_without_triangle(cell);
+      add_without_triangle(top + cell);
+    }
+    add(cell + 1, area, {g[2], g[3], g[0], g[1]});
+    add(top + cell + 1, area, {-g[2], -g[3], g[0] + g[2], g[1] + g[3]});
   }
+  const auto links = [&] { return static_cast<std::uint32_t>(corner.size()) - TriangleChain::links_before; };
+  for (std::uint32_t i = 0; i < TriangleChain::links_after || links() % TriangleChain::multiple != 0; ++i)
+    add_without_triangle(0);
+
   std::vector<double> at(2 * std::size_t{all}), force(2 * std::size_t{all});
   for (std::size_t i = 0; i < all; ++i) {
     at[stride * i] = x[i];
@@ -60,17 +76,19 @@ double SweptStrip::sweep_as_list(const Material& law, bool beside) {
     force[stride * i] = force_x[i];
     force[stride * i + to_y] = force_y[i];
   }
-  const TriangleList list{
-      count,
-      beside ? 1U : 0U,
-      {corner[0].data(), corner[1].data(), corner[2].data()},
-      {gradients[0].data(), gradients[1].data(), gradients[2].data(), gradients[3].data()},
-      areas.data(),
-      at.data(),
-      at.data() + to_y,
-      force.data(),
-      force.data() + to_y};
-  const double stored = law.sweep(list);
+  constexpr std::uint32_t first = TriangleChain::links_before;
+  const TriangleChain chain{links(),
+                            beside ? 1U : 0U,
+                            corner.data() + first,
+                            {gradients[0].data() + first, gradients[1].data() + first,
+                             gradients[2].data() + first, gradients[3].data() + first},
+                            areas.data() + first,
+                            at.data(),
+                            at.data() + to_y,
+                            force.data(),
+                            force.data() + to_y,
+                            {}};
+  const double stored = law.sweep(chain);
   for (std::size_t i = 0; i < all; ++i) {
     force_x[i] = force[stride * i];
     force_y[i] = force[stride * i + to_y];

@@ -22,8 +22,8 @@ struct SweptStrip {
 
   // J/m stored.
   double sweep(const Material& law);
-  /// The same cells as triangles, y beside x or apart.
-  double sweep_as_list(const Material& law, bool beside);
+  /// The same cells as a chain of triangles, y beside x or apart.
+  double sweep_as_chain(const Material& law, bool beside);
   /// Element by element through evaluate().
   double one_by_one(const Material& law);
 

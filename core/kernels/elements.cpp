@@ -1,5 +1,6 @@
 #include "kernels/elements.hpp"
 
+#include <talus/elements/sweep.hpp>
 #include <talus/simd/pack.hpp>
 
 #include <type_traits>
@@ -152,79 +153,50 @@ void lattice_force(std::uint32_t cells, const double gradient[4], double area, c
   some(c, First{cells - c}, First{cells - c + 1});
 }
 
-/// Calls some(e, row) for packs of triangles; the last row may be shorter.
-template <class Some>
-void in_packs(std::uint32_t count, const Some& some) {
-  std::uint32_t e = 0;
-  for (; e + width <= count; e += width) some(e, Whole{});
-  if (e < count) some(e, First{count - e});
-}
-
-/// The patches with these numbers; lanes beyond `count` repeat the first.
-template <bool apart>
-simd::Packs2 patches_at(const LocalVectors& at, const std::uint32_t* number, std::uint32_t count) {
-  const double* from[width];
-  double both[2 * width];
-  for (std::uint32_t lane = 0; lane < width; ++lane) {
-    const std::uint32_t i = number[lane < count ? lane : 0];
-    if constexpr (apart) {
-      both[2 * lane] = at.x[i];
-      both[2 * lane + 1] = at.y[i];
-      from[lane] = both + 2 * lane;
-    } else {
-      from[lane] = at.x + i;
-    }
+/// Calls each(link of the pack, triangle) for the links from i on that have a triangle.
+template <class Each>
+void triangles_of_pack(const TriangleChain& chain, std::uint32_t i, std::uint32_t& next, const Each& each) {
+  for (std::uint32_t link = 0; link < width; ++link) {
+    if (chain.area[i + link] != 0) each(link, next++);
   }
-  return simd::gather_points(from);
 }
 
-template <bool apart>
-void gradient_of_triangles(std::uint32_t count, const Triangles& t, const LocalVectors& at,
-                           double* const f[4]) {
-  double *fxx = f[0], *fxy = f[1], *fyx = f[2], *fyy = f[3];
-  in_packs(
-      count, [&](std::uint32_t e, auto row) __attribute__((always_inline)) {
-        const simd::Packs2 first = patches_at<apart>(at, t.corner[0] + e, row.count),
-                           second = patches_at<apart>(at, t.corner[1] + e, row.count) - first,
-                           third = patches_at<apart>(at, t.corner[2] + e, row.count) - first;
-        const Pack g1x = row.load(t.gradient[0] + e), g1y = row.load(t.gradient[1] + e),
-                   g2x = row.load(t.gradient[2] + e), g2y = row.load(t.gradient[3] + e);
-        row.store(1.0 + (second.x * g1x + third.x * g2x), fxx + e);
-        row.store(second.x * g1y + third.x * g2y, fxy + e);
-        row.store(second.y * g1x + third.y * g2x, fyx + e);
-        row.store(1.0 + (second.y * g1y + third.y * g2y), fyy + e);
-      });
+template <bool beside>
+void gradient_of_chain(const TriangleChain& chain, double* const f[4]) {
+  elements::ChainStrain<beside> strain(chain);
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < chain.count; i += width) {
+    const elements::PlanePacks h = strain.at(i);
+    double of[4][width];
+    simd::store(1.0 + h.xx, of[0]);
+    simd::store(h.xy, of[1]);
+    simd::store(h.yx, of[2]);
+    simd::store(1.0 + h.yy, of[3]);
+    triangles_of_pack(chain, i, next, [&](std::uint32_t link, std::uint32_t triangle) {
+      for (std::uint32_t k = 0; k < 4; ++k) f[k][triangle] = of[k][link];
+    });
+  }
 }
 
-void triangle_gradient(std::uint32_t count, const Triangles& t, const LocalVectors& at, double* const f[4]) {
-  with(at.apart(), [&](auto apart) { gradient_of_triangles<apart>(count, t, at, f); });
+void chain_gradient(const TriangleChain& chain, double* const f[4]) {
+  with(chain.beside != 0, [&](auto beside) { gradient_of_chain<beside>(chain, f); });
 }
 
-void triangle_force(std::uint32_t count, const Triangles& t, const double* const p[4],
-                    const LocalVectors& force) {
-  const auto give = [&](std::uint32_t i, double x, double y) __attribute__((always_inline)) {
-    force.x[i] += x;
-    force.y[i] += y;
-  };
-  in_packs(
-      count, [&](std::uint32_t e, auto row) __attribute__((always_inline)) {
-        const Pack pxx = row.load(p[0] + e), pxy = row.load(p[1] + e), pyx = row.load(p[2] + e),
-                   pyy = row.load(p[3] + e), area = row.load(t.area + e);
-        const Pack g1x = row.load(t.gradient[0] + e), g1y = row.load(t.gradient[1] + e),
-                   g2x = row.load(t.gradient[2] + e), g2y = row.load(t.gradient[3] + e);
-        // What is taken off the second and the third corner, x and y of each.
-        const Pack off[4] = {area * (pxx * g1x + pxy * g1y), area * (pyx * g1x + pyy * g1y),
-                             area * (pxx * g2x + pxy * g2y), area * (pyx * g2x + pyy * g2y)};
-        double of[width][4], *rows[width];
-        for (std::uint32_t lane = 0; lane < width; ++lane) rows[lane] = of[lane];
-        simd::scatter_rows(off, rows);
-        for (std::uint32_t lane = 0; lane < row.count; ++lane) {
-          const double* o = of[lane];
-          give(t.corner[0][e + lane], o[0] + o[2], o[1] + o[3]);
-          give(t.corner[1][e + lane], -o[0], -o[1]);
-          give(t.corner[2][e + lane], -o[2], -o[3]);
-        }
-      });
+template <bool beside>
+void force_of_chain(const TriangleChain& chain, const double* const p[4]) {
+  elements::ChainPull<beside> pull(chain);
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < chain.count; i += width) {
+    double of[4][width] = {};
+    triangles_of_pack(chain, i, next, [&](std::uint32_t link, std::uint32_t triangle) {
+      for (std::uint32_t k = 0; k < 4; ++k) of[k][link] = p[k][triangle];
+    });
+    pull.take(i, {simd::load(of[0]), simd::load(of[1]), simd::load(of[2]), simd::load(of[3])});
+  }
+}
+
+void chain_force(const TriangleChain& chain, const double* const p[4]) {
+  with(chain.beside != 0, [&](auto beside) { force_of_chain<beside>(chain, p); });
 }
 
 double sum(std::uint32_t count, const double* value) {
@@ -235,11 +207,16 @@ double sum(std::uint32_t count, const double* value) {
   return total.total();
 }
 
-double weighted_sum(std::uint32_t count, const double* weight, const double* value) {
+double chain_sum(const TriangleChain& chain, const double* value) {
   Sum total;
-  in_lanes(count, [&](std::uint32_t k, std::uint32_t i, auto row) {
-    total.part[k] = total.part[k] + row.load(weight + i) * row.load(value + i);
-  });
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < chain.count; i += width) {
+    double of[width] = {};
+    triangles_of_pack(chain, i, next,
+                      [&](std::uint32_t link, std::uint32_t triangle) { of[link] = value[triangle]; });
+    Pack& part = total.part[i / width % packs];
+    part = part + simd::load(chain.area + i) * simd::load(of);
+  }
   return total.total();
 }
 
@@ -337,7 +314,7 @@ void accelerate(std::uint32_t count, const VelocityUpdate& how, bool same_mass, 
 }  // namespace
 
 extern const ElementKernels element_kernels;
-const ElementKernels element_kernels{move, lattice_gradient, lattice_force, triangle_gradient, triangle_force,
-                                     sum,  weighted_sum,     accelerate};
+const ElementKernels element_kernels{move, lattice_gradient, lattice_force, chain_gradient, chain_force,
+                                     sum,  chain_sum,        accelerate};
 
 }  // namespace talus::kernels::TALUS_KERNEL_LEVEL

@@ -5,6 +5,8 @@
 // sums over elements go to eight lanes that are added at the end. Patch vectors (displacement, velocity) are
 // stored x, y, x, y, ...; within a subdomain they are LocalVectors.
 
+#include <talus/material.hpp>
+
 #include <cstdint>
 
 namespace talus::kernels {
@@ -22,14 +24,6 @@ struct LocalVectors {
   bool apart() const { return stride == 1; }
   /// From patch i on.
   LocalVectors from(std::uint32_t i) const { return {x + stride * i, y + stride * i, stride}; }
-};
-
-/// Triangles of any shape: the entries of x and y of their corners (their numbers times the stride), ∇w of
-/// the second and third, area; [triangle].
-struct Triangles {
-  const std::uint32_t* corner[3];
-  const double* gradient[4];  ///< second x, y, third x, y, 1/m
-  const double* area;         ///< m²
 };
 
 /// v₊ = keep v₋ + gain (f/m + g), and what the energies of the step need.
@@ -62,14 +56,13 @@ struct ElementKernels {
   void (*lattice_force)(std::uint32_t cells, const double gradient[4], double area, const double* const p[4],
                         double* bottom_x, double* bottom_y, double* top_x, double* top_y);
 
-  void (*triangle_gradient)(std::uint32_t count, const Triangles& triangles, const LocalVectors& at,
-                            double* const f[4]);
-  void (*triangle_force)(std::uint32_t count, const Triangles& triangles, const double* const p[4],
-                         const LocalVectors& force);
+  /// The same of a chain: F and P of its triangles, [triangle] without gaps.
+  void (*chain_gradient)(const TriangleChain& chain, double* const f[4]);
+  void (*chain_force)(const TriangleChain& chain, const double* const p[4]);
 
-  /// Σ value, and Σ weight value.
+  /// Σ value, and Σ area value of the triangles of a chain.
   double (*sum)(std::uint32_t count, const double* value);
-  double (*weighted_sum)(std::uint32_t count, const double* weight, const double* value);
+  double (*chain_sum)(const TriangleChain& chain, const double* value);
 
   /// `mass`, `inverse_mass`: [patch], or of all patches where `same_mass`. `middle`, unless null, takes v₋ +
   /// share (v₊ − v₋). Adds to `sums`.

@@ -31,12 +31,20 @@ Element element_of(const LaidCover& cover, const LaidCover::LaidElement& laid, s
   return element;
 }
 
-/// Triangles of a lattice are alike: what tells them apart is rounding.
+/// Triangles of a lattice are alike: what tells them apart is rounding. Each gradient becomes the one of the
+/// lattice that it is, whichever corner comes first.
 void make_regular(Element& element, int sign, const RegularLattice& lattice) {
   const auto& g = lattice.gradient;
   const double s = sign;
-  element.gradient = {Vec2{-s * (g[0] + g[2]), -s * (g[1] + g[3])}, Vec2{s * g[0], s * g[1]},
-                      Vec2{s * g[2], s * g[3]}};
+  const std::array<Vec2, 3> all{Vec2{-s * (g[0] + g[2]), -s * (g[1] + g[3])}, Vec2{s * g[0], s * g[1]},
+                                Vec2{s * g[2], s * g[3]}};
+  for (Vec2& gradient : element.gradient) {
+    const auto off = [&](Vec2 other) {
+      const Vec2 apart = minus(other, gradient);
+      return dot(apart, apart);
+    };
+    gradient = *std::min_element(all.begin(), all.end(), [&](Vec2 p, Vec2 q) { return off(p) < off(q); });
+  }
   element.area = lattice.area;
 }
 
@@ -171,19 +179,19 @@ std::vector<std::uint32_t> carrying(const LaidCover& cover, const std::vector<Ve
 /// The triangles of any shape of a body, as its subdomains go through them.
 void fill_triangles(Model& model, const Body& body, const std::vector<Element>& elements) {
   Partition& partition = model.partition;
-  const std::size_t count = partition.corner[0].size();
-  for (auto& component : partition.gradient) component.resize(count);
-  partition.area.resize(count);
+  for (auto& component : partition.gradient) component.resize(partition.corner.size());
   for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
     const Subdomain& subdomain = partition.subdomains[s];
     for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
       const ElementChunk& chunk = partition.chunks[c];
-      for (std::uint32_t i = 0; chunk.cells == 0 && i < chunk.count; ++i) {
-        const Element& element = elements[chunk.element + i];
+      std::uint32_t next = chunk.element;
+      for (std::uint32_t i = chunk.link; i < chunk.link + chunk.links; ++i) {
+        if (partition.area[i] == 0) continue;
+        const Element& element = elements[next++];
         const std::array<double, 4> gradient{element.gradient[1].x, element.gradient[1].y,
                                              element.gradient[2].x, element.gradient[2].y};
-        for (std::size_t k = 0; k < 4; ++k) partition.gradient[k][chunk.triangle + i] = gradient[k];
-        partition.area[chunk.triangle + i] = element.area;
+        for (std::size_t k = 0; k < 4; ++k) partition.gradient[k][i] = gradient[k];
+        partition.area[i] = element.area;
       }
     }
     for (std::uint32_t r = subdomain.run_begin; r < subdomain.run_end; ++r) {

@@ -17,7 +17,7 @@ struct ElementChunk {
   std::uint32_t count;        ///< of elements
   std::uint32_t cells;        ///< of the lattice; 0: triangles of any shape
   std::uint32_t bottom, top;  ///< lattice: the leftmost patch below and above, in numbers of the subdomain
-  std::uint32_t triangle;     ///< any shape: the first entry of Partition::corner, gradient, area
+  std::uint32_t link, links;  ///< any shape: the first entry of Partition::corner, gradient, area; how many
   std::uint32_t run_needed;   ///< runs before this one are touched by now
   std::uint32_t run_done;     ///< runs before this one are not touched after it
   std::uint32_t slot_needed, slot_done;  ///< the same of slots
@@ -56,11 +56,13 @@ struct Partition {
   std::vector<std::uint32_t> common_start;            ///< [common patch + 1] into common_slot
   std::vector<std::uint32_t> common_slot;
   std::vector<RegularLattice> lattices;  ///< [body] of many elements
-  // Triangles of any shape.
+  // Triangles of any shape, as the chains of chain_triangles(): what a link has makes a triangle with what
+  // the two links before it have. Each chunk is a chain of its own, with as many links without triangle
+  // before and after it as TriangleChain asks for.
   /// Numbers of the subdomain; twice that in bodies without a lattice, whose vectors have y beside x.
-  std::array<std::vector<std::uint32_t>, 3> corner;
-  std::array<std::vector<double>, 4> gradient;  ///< second corner x, y, third x, y, 1/m
-  std::vector<double> area;                     ///< m²
+  std::vector<std::uint32_t> corner;
+  std::array<std::vector<double>, 4> gradient;  ///< second corner x, y, third x, y, 1/m; or 0
+  std::vector<double> area;                     ///< m²; 0: no triangle
 
   std::uint32_t common_count() const {
     return common_start.empty() ? 0 : static_cast<std::uint32_t>(common_start.size() - 1);

@@ -1,5 +1,7 @@
 #include "model/shared_places.hpp"
 
+#include <talus/material.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -73,9 +75,8 @@ void share_places(Partition& partition, Subdomain& subdomain, std::vector<std::u
       place(chunk.top);
       continue;
     }
-    for (auto& corner : partition.corner) {
-      for (std::uint32_t i = chunk.triangle; i < chunk.triangle + chunk.count; ++i) place(corner[i]);
-    }
+    for (std::uint32_t i = chunk.link - TriangleChain::links_before; i < chunk.link + chunk.links; ++i)
+      place(partition.corner[i]);
   }
   subdomain.patch_count = at_once * width;
 }

@@ -38,24 +38,13 @@ void clear(const LocalVectors& vectors, std::uint32_t count) {
   if (vectors.apart()) std::fill_n(vectors.y, count, 0.0);
 }
 
-void fetch_ahead(const MotionState& motion, const PatchRun& run) {
-  constexpr std::uint32_t in_line = 64 / sizeof(Vec2);
-  for (std::uint32_t i = 0; i < run.count; i += in_line) {
-    __builtin_prefetch(&motion.patch_displacement[run.patch + i], 1);
-    __builtin_prefetch(&motion.patch_velocity[run.patch + i], 1);
-  }
-}
-
-/// Gradients and corners of a chunk of triangles.
-void fetch_ahead(const Partition& partition, const ElementChunk& chunk) {
-  const auto fetch = [&](const auto& values) {
-    const std::size_t in_line = 64 / sizeof values[0];
-    for (std::size_t i = chunk.triangle; i < chunk.triangle + chunk.count; i += in_line)
-      __builtin_prefetch(&values[i]);
-  };
-  for (const auto& corner : partition.corner) fetch(corner);
-  for (const auto& gradient : partition.gradient) fetch(gradient);
-  fetch(partition.area);
+/// Displacements and velocities of own patches, which lie in the order of their runs.
+RowsAhead rows_ahead(const MotionState& motion, const Partition& partition, std::uint32_t run,
+                     std::uint32_t end) {
+  if (run == end) return {};
+  const PatchRun &first = partition.runs[run], &last = partition.runs[end - 1];
+  return {{&motion.patch_displacement[first.patch].x, &motion.patch_velocity[first.patch].x},
+          2 * (last.patch + last.count - first.patch)};
 }
 
 using Four = std::array<double*, 4>;
@@ -65,29 +54,29 @@ Four rows(double (&component)[4][ElementBuffer::most]) {
 }
 
 LatticeCells cells_of(const RegularLattice& lattice, const ElementChunk& chunk, const LocalVectors& at,
-                      const LocalVectors& force) {
+                      const LocalVectors& force, const RowsAhead& ahead) {
   const LocalVectors bottom = at.from(chunk.bottom), top = at.from(chunk.top),
                      on_bottom = force.from(chunk.bottom), on_top = force.from(chunk.top);
   LatticeCells cells{chunk.cells, {},          lattice.area, bottom.x, bottom.y, top.x,
-                     top.y,       on_bottom.x, on_bottom.y,  on_top.x, on_top.y};
+                     top.y,       on_bottom.x, on_bottom.y,  on_top.x, on_top.y, ahead};
   std::copy(lattice.gradient.begin(), lattice.gradient.end(), cells.gradient);
   return cells;
 }
 
-TriangleList list_of(const kernels::Triangles& t, std::uint32_t count, const LocalVectors& at,
-                     const LocalVectors& force) {
-  TriangleList list{count, at.stride - 1, {}, {}, t.area, at.x, at.y, force.x, force.y};
-  std::copy(std::begin(t.corner), std::end(t.corner), list.corner);
-  std::copy(std::begin(t.gradient), std::end(t.gradient), list.gradient);
-  return list;
-}
-
-kernels::Triangles triangles_of(const Partition& partition, const ElementChunk& chunk) {
-  kernels::Triangles t{};
-  for (std::size_t k = 0; k < 3; ++k) t.corner[k] = partition.corner[k].data() + chunk.triangle;
-  for (std::size_t k = 0; k < 4; ++k) t.gradient[k] = partition.gradient[k].data() + chunk.triangle;
-  t.area = partition.area.data() + chunk.triangle;
-  return t;
+TriangleChain chain_of(const Partition& partition, const ElementChunk& chunk, const LocalVectors& at,
+                       const LocalVectors& force, const RowsAhead& ahead) {
+  TriangleChain chain{chunk.links,
+                      at.stride - 1,
+                      partition.corner.data() + chunk.link,
+                      {},
+                      partition.area.data() + chunk.link,
+                      at.x,
+                      at.y,
+                      force.x,
+                      force.y,
+                      ahead};
+  for (std::size_t k = 0; k < 4; ++k) chain.gradient[k] = partition.gradient[k].data() + chunk.link;
+  return chain;
 }
 
 }  // namespace
@@ -155,36 +144,34 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
             motion.patch_displacement[partition.slot_patch[slot_entered]]);
         set(force, partition.slot_local[slot_entered], {});
       }
-      const bool cells = chunk.cells > 0;
-      const kernels::Triangles triangles = cells ? kernels::Triangles{} : triangles_of(partition, chunk);
       // What the next chunk needs comes from memory while this one is worked on.
-      if (c + 1 < subdomain.chunk_end) {
-        for (std::uint32_t r = entered; r < partition.chunks[c + 1].run_needed; ++r)
-          fetch_ahead(motion, partition.runs[r]);
-        if (partition.chunks[c + 1].cells == 0) fetch_ahead(partition, partition.chunks[c + 1]);
-      }
+      const RowsAhead ahead = c + 1 < subdomain.chunk_end
+                                  ? rows_ahead(motion, partition, entered, partition.chunks[c + 1].run_needed)
+                                  : RowsAhead{};
+      const bool cells = chunk.cells > 0;
+      const TriangleChain chain = cells ? TriangleChain{} : chain_of(partition, chunk, at, force, ahead);
       // A material that goes on to the forces by itself is asked for stress where that is kept alone.
       if (sweeping == nullptr || step.keep) {
         if (cells) {
           kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
                                     at.x + top, at.y + top, f.data());
         } else {
-          kernels_.triangle_gradient(chunk.count, triangles, at, f.data());
+          kernels_.chain_gradient(chain, f.data());
         }
         materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
       }
       if (sweeping != nullptr) {
-        sum.stored += cells ? sweeping->sweep(cells_of(lattice, chunk, at, force))
-                            : sweeping->sweep(list_of(triangles, chunk.count, at, force));
+        sum.stored +=
+            cells ? sweeping->sweep(cells_of(lattice, chunk, at, force, ahead)) : sweeping->sweep(chain);
       } else if (cells) {
         kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), force.x + bottom,
                                force.y + bottom, force.x + top, force.y + top);
         sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
         sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
       } else {
-        kernels_.triangle_force(chunk.count, triangles, p.data(), force);
-        sum.stored += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.energy);
-        sum.dissipated += kernels_.weighted_sum(chunk.count, triangles.area, w.elements.dissipated);
+        kernels_.chain_force(chain, p.data());
+        sum.stored += kernels_.chain_sum(chain, w.elements.energy);
+        sum.dissipated += kernels_.chain_sum(chain, w.elements.dissipated);
       }
       for (; left < chunk.run_done; ++left) leave(partition.runs[left], sum);
       for (; slot_left < chunk.slot_done; ++slot_left)

@@ -20,7 +20,7 @@ constexpr double countable_steps = 1e15;
 /// What each step of a body of many elements reads and writes in memory.
 void lay_in_large_pages(const Partition& partition, const MotionState& motion) {
   for (const auto* values : {&motion.patch_displacement, &motion.patch_velocity}) prefer_large_pages(*values);
-  for (const auto& numbers : partition.corner) prefer_large_pages(numbers);
+  prefer_large_pages(partition.corner);
   for (const auto& values : partition.gradient) prefer_large_pages(values);
   prefer_large_pages(partition.area);
 }

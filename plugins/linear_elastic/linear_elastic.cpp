@@ -119,7 +119,7 @@ class LinearElastic final : public Material {
   double sweep(const LatticeCells& cells) const noexcept override {
     return elements::sweep(cells, SmallStrainPacks(moduli_));
   }
-  double sweep(const TriangleList& triangles) const noexcept override {
+  double sweep(const TriangleChain& triangles) const noexcept override {
     return elements::sweep(triangles, SmallStrainPacks(moduli_));
   }
 

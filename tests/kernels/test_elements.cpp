@@ -11,6 +11,7 @@
 using namespace talus::kernels;
 using talus::best_simd_level;
 using talus::SimdLevel;
+using talus::TriangleChain;
 
 namespace {
 
@@ -59,29 +60,51 @@ struct Vectors {
   }
 };
 
-/// The cells of a lattice as triangles with numbers: bottom row 0, 1, ..., then the top row. Vectors apart or
-/// beside each other.
-struct CellsAsTriangles {
-  std::vector<std::uint32_t> corner[3];
+/// The cells of a lattice, whose corners are numbered bottom row 0, 1, ..., then top row, as a chain that
+/// breaks off after each third cell. Vectors apart or beside each other.
+struct CellsAsChain {
+  std::vector<std::uint32_t> corner;
   std::vector<double> gradient[4], area;
+  std::vector<std::size_t> cell_order;  ///< [triangle] its place among lower triangles, then upper ones
   std::uint32_t stride;
 
-  CellsAsTriangles(std::uint32_t cells, const std::array<double, 4>& g, double each, bool apart)
+  CellsAsChain(std::uint32_t cells, const std::array<double, 4>& g, double each, bool apart)
       : stride(apart ? 1 : 2) {
     const std::uint32_t top = cells + 1;
-    for (std::uint32_t c = 0; c < cells; ++c) add({c, c + 1, top + c}, g, 1, each);
-    for (std::uint32_t c = 0; c < cells; ++c) add({top + c + 1, top + c, c + 1}, g, -1, each);
+    for (std::uint32_t i = 0; i < TriangleChain::links_before; ++i) add(0, {}, 0);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      if (c % 3 == 0) {
+        add(c, {}, 0);
+        add(top + c, {}, 0);
+      }
+      add(c + 1, {g[2], g[3], g[0], g[1]}, each);
+      add(top + c + 1, {-g[2], -g[3], g[0] + g[2], g[1] + g[3]}, each);
+      cell_order.insert(cell_order.end(), {c, cells + c});
+    }
+    for (std::uint32_t i = 0; i < TriangleChain::links_after || count() % TriangleChain::multiple != 0; ++i)
+      add(0, {}, 0);
   }
-  void add(const std::array<std::uint32_t, 3>& corners, const std::array<double, 4>& g, double sign,
-           double each) {
-    for (std::size_t k = 0; k < 3; ++k) corner[k].push_back(stride * corners[k]);
-    for (std::size_t k = 0; k < 4; ++k) gradient[k].push_back(sign * g[k]);
+  std::uint32_t count() const {
+    return static_cast<std::uint32_t>(corner.size()) - TriangleChain::links_before;
+  }
+  void add(std::uint32_t at, const std::array<double, 4>& g, double each) {
+    corner.push_back(stride * at);
+    for (std::size_t k = 0; k < 4; ++k) gradient[k].push_back(g[k]);
     area.push_back(each);
   }
-  Triangles arrays() const {
-    return {{corner[0].data(), corner[1].data(), corner[2].data()},
-            {gradient[0].data(), gradient[1].data(), gradient[2].data(), gradient[3].data()},
-            area.data()};
+  TriangleChain chain(const LocalVectors& at, const LocalVectors& force) const {
+    constexpr std::size_t first = TriangleChain::links_before;
+    return {count(),
+            stride - 1,
+            corner.data() + first,
+            {gradient[0].data() + first, gradient[1].data() + first, gradient[2].data() + first,
+             gradient[3].data() + first},
+            area.data() + first,
+            at.x,
+            at.y,
+            force.x,
+            force.y,
+            {}};
   }
 };
 
@@ -96,15 +119,17 @@ TEST_CASE("cells of a lattice strain like the triangles that they are", "[kernel
   for (const std::uint32_t cells : {1u, 7u, 8u, 21u, 128u}) {
     const std::uint32_t row = cells + 1;
     const std::vector<double> x = random.numbers(2 * row), y = random.numbers(2 * row);
-    Tensors as_cells(2 * cells), as_triangles(2 * cells);
+    Tensors as_cells(2 * cells), as_chain(2 * cells);
     loops.lattice_gradient(cells, steep.data(), x.data(), y.data(), x.data() + row, y.data() + row,
                            as_cells.rows.data());
-    loops.triangle_gradient(2 * cells, CellsAsTriangles(cells, steep, 1, apart).arrays(),
-                            Vectors(x, y, apart).local, as_triangles.rows.data());
+    const CellsAsChain same(cells, steep, 1, apart);
+    const Vectors at(x, y, apart);
+    loops.chain_gradient(same.chain(at.local, {}), as_chain.rows.data());
     double largest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::size_t e = 0; e < 2 * cells; ++e)
-        largest = std::max(largest, std::abs(as_cells.component[k][e] - as_triangles.component[k][e]));
+        largest =
+            std::max(largest, std::abs(as_cells.component[k][same.cell_order[e]] - as_chain.component[k][e]));
     }
     CHECK(largest <= 1e-15 * 20);
   }
@@ -122,8 +147,13 @@ TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]
     const Vectors force(before_x, before_y, apart);
     loops.lattice_force(cells, steep.data(), 0.75, stress.rows.data(), x.data(), y.data(), x.data() + row,
                         y.data() + row);
-    loops.triangle_force(2 * cells, CellsAsTriangles(cells, steep, 0.75, apart).arrays(), stress.rows.data(),
-                         force.local);
+    const CellsAsChain same(cells, steep, 0.75, apart);
+    Tensors in_chain(2 * cells);
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t e = 0; e < 2 * cells; ++e)
+        in_chain.component[k][e] = stress.component[k][same.cell_order[e]];
+    }
+    loops.chain_force(same.chain({}, force.local), in_chain.rows.data());
     double largest = 0, sum_x = 0, moved = 0;
     for (std::size_t i = 0; i < 2 * row; ++i) {
       const LocalVectors at = force.local.from(static_cast<std::uint32_t>(i));
@@ -137,21 +167,38 @@ TEST_CASE("cells of a lattice push like the triangles that they are", "[kernels]
   }
 }
 
+namespace {
+
+double total(const double* l) {
+  return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+
+}  // namespace
+
 TEST_CASE("sums go to eight lanes, whatever the number of values", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
   Random random;
   for (const std::uint32_t count : {0u, 1u, 5u, 8u, 9u, 16u, 255u}) {
-    const std::vector<double> value = random.numbers(count), weight = random.numbers(count);
-    double plain[8] = {}, weighted[8] = {};
-    for (std::uint32_t i = 0; i < count; ++i) {
-      plain[i % 8] += value[i];
-      weighted[i % 8] += weight[i] * value[i];
-    }
-    const auto total = [](const double* l) {
-      return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
-    };
+    const std::vector<double> value = random.numbers(count);
+    double plain[8] = {};
+    for (std::uint32_t i = 0; i < count; ++i) plain[i % 8] += value[i];
     CHECK(loops.sum(count, value.data()) == total(plain));
-    CHECK(loops.weighted_sum(count, weight.data(), value.data()) == total(weighted));
+  }
+}
+
+TEST_CASE("sums over the triangles of a chain go to eight lanes by their links", "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t cells : {1u, 7u, 8u, 21u}) {
+    CellsAsChain same(cells, steep, 1, true);
+    for (double& area : same.area) area *= 2 + random();
+    const std::vector<double> value = random.numbers(2 * cells);
+    const TriangleChain chain = same.chain({}, {});
+    double lane[8] = {};
+    for (std::uint32_t i = 0, next = 0; i < chain.count; ++i) {
+      if (chain.area[i] != 0) lane[i % 8] += chain.area[i] * value[next++];
+    }
+    CHECK(loops.chain_sum(chain, value.data()) == total(lane));
   }
 }
 

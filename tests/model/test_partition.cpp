@@ -35,6 +35,15 @@ std::vector<std::uint32_t> owner_count(const Model& model) {
   return count;
 }
 
+/// Of a chunk that is a chain.
+std::vector<std::uint32_t> links_with_triangle(const Partition& partition, const ElementChunk& chunk) {
+  std::vector<std::uint32_t> links;
+  for (std::uint32_t i = chunk.link; i < chunk.link + chunk.links; ++i) {
+    if (partition.area[i] != 0) links.push_back(i);
+  }
+  return links;
+}
+
 }  // namespace
 
 TEST_CASE("every element is in one chunk and every patch own in one subdomain, or common",
@@ -63,12 +72,14 @@ TEST_CASE("every element is in one chunk and every patch own in one subdomain, o
         }
         for (; slot < chunk.slot_needed; ++slot)
           enter(partition.slot_local[slot], partition.slot_patch[slot]);
+        const std::vector<std::uint32_t> links = links_with_triangle(partition, chunk);
+        REQUIRE(links.size() == (chunk.cells == 0 ? chunk.count : 0));
         for (std::uint32_t i = 0; i < chunk.count; ++i) {
           ++seen[chunk.element + i];
           const Element& element = model.elements[model.first_element(body) + chunk.element + i];
           std::array<std::uint32_t, 3> corner{};
           if (chunk.cells == 0) {
-            for (std::size_t k = 0; k < 3; ++k) corner[k] = partition.corner[k][chunk.triangle + i];
+            for (std::uint32_t k = 0; k < 3; ++k) corner[k] = partition.corner[links[i] + k - 2];
           } else if (i < chunk.cells) {
             corner = {chunk.bottom + i, chunk.bottom + i + 1, chunk.top + i};
           } else {

@@ -49,22 +49,22 @@ TEST_CASE("linear elasticity swept is linear elasticity evaluated, at every leve
         const SweptStrip given(cells, 1e-4, wild);
         SweptStrip due = given;
         const double stored = due.one_by_one(*laws[0]);
-        SweptStrip first = given, first_list = given;
+        SweptStrip first = given, first_chain = given;
         const double first_stored = first.sweep(*laws[0]);
-        const double first_stored_in_list = first_list.sweep_as_list(*laws[0], true);
+        const double first_stored_in_chain = first_chain.sweep_as_chain(*laws[0], true);
         const double force = 6 * young * SweptStrip::area;
         CHECK(largest_difference(first, due) <= rounding * force);
-        CHECK(largest_difference(first_list, due) <= rounding * force);
+        CHECK(largest_difference(first_chain, due) <= rounding * force);
         CHECK(std::abs(first_stored - stored) <= 1e-10 * stored);
-        CHECK(std::abs(first_stored_in_list - stored) <= 1e-10 * stored);
+        CHECK(std::abs(first_stored_in_chain - stored) <= 1e-10 * stored);
         for (const auto& law : laws) {
           SweptStrip again = given, beside = given, apart = given;
           CHECK(again.sweep(*law) == first_stored);
-          CHECK(beside.sweep_as_list(*law, true) == first_stored_in_list);
-          CHECK(apart.sweep_as_list(*law, false) == first_stored_in_list);
+          CHECK(beside.sweep_as_chain(*law, true) == first_stored_in_chain);
+          CHECK(apart.sweep_as_chain(*law, false) == first_stored_in_chain);
           CHECK(largest_difference(again, first) == 0);
-          CHECK(largest_difference(beside, first_list) == 0);
-          CHECK(largest_difference(apart, first_list) == 0);
+          CHECK(largest_difference(beside, first_chain) == 0);
+          CHECK(largest_difference(apart, first_chain) == 0);
         }
       }
     }

@@ -20,6 +20,12 @@ struct MaterialResponse {
   double* state;       ///< of t_n; separate from MaterialBatch::state
 };
 
+/// Two rows in memory that the host reads after a sweep: fetched along the way, they are there in time.
+struct RowsAhead {
+  const double* from[2];
+  std::uint32_t count;  ///< of each
+};
+
 /// Cells of a regular lattice side by side, each a lower and an upper triangle. Cell c has the corners c, c +
 /// 1 of the bottom row and of the top row; its lower triangle has the corners bottom c, bottom c + 1, top c,
 /// its upper one the other corner of each.
@@ -31,17 +37,24 @@ struct LatticeCells {
   const double *bottom_x, *bottom_y, *top_x, *top_y;  ///< [count + 1] m, displacement
   double *bottom_force_x, *bottom_force_y;            ///< [count + 1] N/m
   double *top_force_x, *top_force_y;                  ///< [count + 1] N/m
+  RowsAhead ahead;
 };
 
-/// Triangles of any shape.
-struct TriangleList {
-  std::uint32_t count;
-  std::uint32_t beside;            ///< 1: y of a corner lies beside its x; 0: in a row of its own
-  const std::uint32_t* corner[3];  ///< [triangle] which entry of x and of y each corner is
-  const double* gradient[4];       ///< [triangle] 1/m, ∇w of the second corner x, y, and of the third
-  const double* area;              ///< [triangle] m²
-  const double *x, *y;             ///< m, displacement
-  double *force_x, *force_y;       ///< N/m
+/// Triangles of any shape, in a chain: link i makes a triangle of the corners of links i − 2, i − 1 and i,
+/// its first, second and third, so that of most triangles two corners are at hand already. Where a strip of
+/// triangles turns or ends there are links without triangle, whose gradient and area are 0: so are the first
+/// two, the last `links_after`, and `links_before` more before link 0, of which `corner` alone is read.
+struct TriangleChain {
+  static constexpr std::uint32_t links_before = 2, links_after = 2, multiple = 8;
+
+  std::uint32_t count;          ///< of links, a multiple of `multiple`
+  std::uint32_t beside;         ///< 1: y of a corner lies beside its x; 0: in a row of its own
+  const std::uint32_t* corner;  ///< [link] which entry of x and of y it is
+  const double* gradient[4];    ///< [link] 1/m, ∇w of the second corner x, y, and of the third
+  const double* area;           ///< [link] m²
+  const double *x, *y;          ///< m, displacement
+  double *force_x, *force_y;    ///< N/m
+  RowsAhead ahead;
 };
 
 /// A constitutive law (Eq. 2). Const: all state lives with the host.
@@ -73,7 +86,7 @@ class Material {
   /// Takes area · P ∇w off the forces of the corners (Eq. 18) and returns what the elements store, J/m. The
   /// bits may depend on how elements are grouped into calls, and on nothing else.
   virtual double sweep(const LatticeCells& /*cells*/) const noexcept { return 0; }
-  virtual double sweep(const TriangleList& /*triangles*/) const noexcept { return 0; }
+  virtual double sweep(const TriangleChain& /*triangles*/) const noexcept { return 0; }
 };
 
 }  // namespace talus

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace talus::elements {
 inline namespace TALUS_SIMD_LEVEL {
@@ -71,6 +72,14 @@ template <class Some>
   if (i < count) some(i, k, PartOfPack{count - i});
 }
 
+/// Entries [begin, end), as far as there are so many.
+[[gnu::always_inline]] inline void fetch(const RowsAhead& ahead, std::uint32_t begin, std::uint32_t end) {
+  constexpr std::uint32_t in_line = 64 / sizeof(double);
+  for (std::uint32_t i = begin; i < end && i < ahead.count; i += in_line) {
+    for (const double* row : ahead.from) __builtin_prefetch(row + i, 1);
+  }
+}
+
 /// What a triangle pulls at its second and third corner with, N/m.
 struct Pull {
   Pack x1, y1, x2, y2;
@@ -90,11 +99,13 @@ double sweep_cells(const LatticeCells& cells, const Law& law) {
                       *const top_y = cells.top_y;
   double *const on_bottom_x = cells.bottom_force_x, *const on_bottom_y = cells.bottom_force_y,
                 *const on_top_x = cells.top_force_x, *const on_top_y = cells.top_force_y;
+  const RowsAhead ahead = cells.ahead;
   // What the cells before gave to their right corners, of which the last lies here.
   Pack before_bottom_x = 0.0, before_bottom_y = 0.0, before_top_x = 0.0, before_top_y = 0.0;
   EnergySum energy;
   in_packs(
       cells.count, [&](std::uint32_t c, std::uint32_t k, auto row) __attribute__((always_inline)) {
+        fetch(ahead, 2 * c, 2 * (c + simd::lanes));
         const Pack left_x = row.load(bottom_x + c), right_x = row.load(bottom_x + c + 1);
         const Pack left_y = row.load(bottom_y + c), right_y = row.load(bottom_y + c + 1);
         const Pack over_x = row.load(top_x + c), over_right_x = row.load(top_x + c + 1);
@@ -176,69 +187,128 @@ struct Corners {
       y[i] = p[1];
     }
   }
-  /// Of as many corners as a pack has lanes; lanes beyond `count` repeat the first.
-  static simd::Packs2 gather(const double* x, const double* y, const std::uint32_t* at, std::uint32_t count) {
+  /// Of as many links as a pack has lanes.
+  static simd::Packs2 gather(const double* x, const double* y, const std::uint32_t* at) {
     const double* from[simd::lanes];
     double both[simd::lanes][2];
     for (std::uint32_t lane = 0; lane < simd::lanes; ++lane) {
-      const std::uint32_t i = at[lane < count ? lane : 0];
       if constexpr (beside) {
-        from[lane] = x + i;
+        from[lane] = x + at[lane];
       } else {
-        store_pair(load(x, y, i), both[lane]);
+        store_pair(load(x, y, at[lane]), both[lane]);
         from[lane] = both[lane];
       }
     }
     return simd::gather_points(from);
   }
+  /// Adds to those of as many links as a pack has lanes, one after the other: some may be the same.
+  static void add(simd::Packs2 what, double* x, double* y, const std::uint32_t* at) {
+    alignas(64) double both[simd::lanes][2];
+    Pack halves[2];
+    simd::interleave(what.x, what.y, halves);
+    simd::store(halves[0], both[0]);
+    simd::store(halves[1], both[0] + simd::lanes);
+    for (std::uint32_t lane = 0; lane < simd::lanes; ++lane)
+      store(load(x, y, at[lane]) + load_pair(both[lane]), x, y, at[lane]);
+  }
 };
 
+/// What links had one pack before, to be handed on along the chain.
+class Handed {
+ public:
+  /// Of the link before each.
+  Pack on(Pack here) {
+    const Pack result = simd::shifted(before_, here);
+    before_ = here;
+    return result;
+  }
+
+ private:
+  Pack before_ = 0.0;
+};
+
+/// H of the triangles of a chain, pack after pack from its first link on.
+template <bool beside>
+class ChainStrain {
+ public:
+  explicit ChainStrain(const TriangleChain& chain) : chain_(chain) {}
+
+  [[gnu::always_inline]] PlanePacks at(std::uint32_t i) {
+    const simd::Packs2 third = Corners<beside>::gather(chain_.x, chain_.y, chain_.corner + i),
+                       second{second_x_.on(third.x), second_y_.on(third.y)},
+                       first{first_x_.on(second.x), first_y_.on(second.y)}, along = second - first,
+                       up = third - first;
+    const Pack g1x = simd::load(chain_.gradient[0] + i), g1y = simd::load(chain_.gradient[1] + i),
+               g2x = simd::load(chain_.gradient[2] + i), g2y = simd::load(chain_.gradient[3] + i);
+    return {along.x * g1x + up.x * g2x, along.x * g1y + up.x * g2y, along.y * g1x + up.y * g2x,
+            along.y * g1y + up.y * g2y};
+  }
+
+ private:
+  const TriangleChain chain_;
+  Handed second_x_, second_y_, first_x_, first_y_;
+};
+
+/// Takes area · P ∇w off the corners of a chain, pack after pack from its first link on: what a link takes
+/// goes back along the chain, and is given two links late.
+template <bool beside>
+class ChainPull {
+ public:
+  explicit ChainPull(const TriangleChain& chain) : chain_(chain) {}
+
+  [[gnu::always_inline]] void take(std::uint32_t i, const PlanePacks& p) {
+    const Pack g1x = simd::load(chain_.gradient[0] + i), g1y = simd::load(chain_.gradient[1] + i),
+               g2x = simd::load(chain_.gradient[2] + i), g2y = simd::load(chain_.gradient[3] + i),
+               area = simd::load(chain_.area + i);
+    const Pull off{area * (p.xx * g1x + p.xy * g1y), area * (p.yx * g1x + p.yy * g1y),
+                   area * (p.xx * g2x + p.xy * g2y), area * (p.yx * g2x + p.yy * g2y)};
+    Corners<beside>::add({(off.x1 + off.x2) - second_x_.on(off.x1) - third_x_.on(next_third_x_.on(off.x2)),
+                          (off.y1 + off.y2) - second_y_.on(off.y1) - third_y_.on(next_third_y_.on(off.y2))},
+                         chain_.force_x, chain_.force_y, chain_.corner + i - TriangleChain::links_before);
+  }
+
+ private:
+  const TriangleChain chain_;
+  Handed second_x_, second_y_, next_third_x_, next_third_y_, third_x_, third_y_;
+};
+
+/// What links further on need from memory: chains lie one after the other.
+[[gnu::always_inline]] inline void fetch_ahead(const TriangleChain& chain, std::uint32_t i) {
+  constexpr std::uint32_t links = 128;
+  for (const double* row : chain.gradient) __builtin_prefetch(row + i + links);
+  __builtin_prefetch(chain.area + i + links);
+  __builtin_prefetch(chain.corner + i + links);
+  fetch(chain.ahead, i, i + simd::lanes);
+}
+
 template <bool beside, class Law>
-double sweep_triangles(const TriangleList& list, const Law& law) {
-  using At = Corners<beside>;
-  const std::uint32_t *const first = list.corner[0], *const second = list.corner[1],
-                             *const third = list.corner[2];
-  const double *const gradient_1x = list.gradient[0], *const gradient_1y = list.gradient[1],
-                      *const gradient_2x = list.gradient[2], *const gradient_2y = list.gradient[3],
-                      *const areas = list.area;
-  const double *const x = list.x, *const y = list.y;
-  double *const force_x = list.force_x, *const force_y = list.force_y;
+double sweep_chain(const TriangleChain& chain, const Law& law) {
+  ChainStrain<beside> strain(chain);
+  ChainPull<beside> pull(chain);
+  const double* const area = chain.area;
   EnergySum energy;
-  in_packs(
-      list.count, [&](std::uint32_t e, std::uint32_t k, auto row) __attribute__((always_inline)) {
-        const simd::Packs2 at = At::gather(x, y, first + e, row.count),
-                           along = At::gather(x, y, second + e, row.count) - at,
-                           up = At::gather(x, y, third + e, row.count) - at;
-        const Pack g1x = row.load(gradient_1x + e), g1y = row.load(gradient_1y + e),
-                   g2x = row.load(gradient_2x + e), g2y = row.load(gradient_2y + e),
-                   area = row.load(areas + e);
-        const PlanePacks h[1] = {{along.x * g1x + up.x * g2x, along.x * g1y + up.x * g2y,
-                                  along.y * g1x + up.y * g2x, along.y * g1y + up.y * g2y}};
-        PlanePacks p[1];
-        Pack stored[1];
-        law(h, p, stored);
-        energy.add(k, row.only(area * stored[0]));
-        // What is taken off the second and the third corner, x and y of each.
-        const Pack off[4] = {area * (p[0].xx * g1x + p[0].xy * g1y), area * (p[0].yx * g1x + p[0].yy * g1y),
-                             area * (p[0].xx * g2x + p[0].xy * g2y), area * (p[0].yx * g2x + p[0].yy * g2y)};
-        alignas(64) double of[simd::lanes][4];
-        double* rows[simd::lanes];
-        for (std::uint32_t lane = 0; lane < simd::lanes; ++lane) rows[lane] = of[lane];
-        simd::scatter_rows(off, rows);
-        for (std::uint32_t lane = 0; lane < row.count; ++lane) {
-          const Pair to_second = load_pair(of[lane]), to_third = load_pair(of[lane] + 2);
-          const std::uint32_t i = first[e + lane], j = second[e + lane], l = third[e + lane];
-          At::store(At::load(force_x, force_y, i) + (to_second + to_third), force_x, force_y, i);
-          At::store(At::load(force_x, force_y, j) - to_second, force_x, force_y, j);
-          At::store(At::load(force_x, force_y, l) - to_third, force_x, force_y, l);
-        }
-      });
+  const auto some = [&]<int packs>(std::uint32_t i, std::integral_constant<int, packs>)
+      __attribute__((always_inline)) {
+    PlanePacks h[packs], p[packs];
+    Pack stored[packs];
+    for (int k = 0; k < packs; ++k) fetch_ahead(chain, i + k * simd::lanes);
+    for (int k = 0; k < packs; ++k) h[k] = strain.at(i + k * simd::lanes);
+    law(h, p, stored);
+    for (int k = 0; k < packs; ++k) {
+      const std::uint32_t at = i + k * simd::lanes;
+      energy.add(at / simd::lanes % EnergySum::packs, simd::load(area + at) * stored[k]);
+      pull.take(at, p[k]);
+    }
+  };
+  std::uint32_t i = 0;
+  for (; i + 2 * simd::lanes <= chain.count; i += 2 * simd::lanes) some(i, std::integral_constant<int, 2>());
+  if (i < chain.count) some(i, std::integral_constant<int, 1>());
   return energy.total();
 }
 
 template <class Law>
-double sweep(const TriangleList& list, const Law& law) {
-  return list.beside != 0 ? sweep_triangles<true>(list, law) : sweep_triangles<false>(list, law);
+double sweep(const TriangleChain& chain, const Law& law) {
+  return chain.beside != 0 ? sweep_chain<true>(chain, law) : sweep_chain<false>(chain, law);
 }
 
 }  // namespace TALUS_SIMD_LEVEL
