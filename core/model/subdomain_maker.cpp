@@ -195,16 +195,19 @@ void SubdomainMaker::add_cells(std::uint32_t i, std::uint32_t cells,
 void SubdomainMaker::add_chain(std::span<const ChainLink> chain, std::vector<std::uint32_t>& final_order) {
   std::uint32_t room = 0;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    if (room == 0) {
-      room = elements_at_once;
-      begin_chunk(chain[std::max<std::size_t>(i, 2) - 2].patch, final_order);
-      for (std::size_t before = std::max<std::size_t>(i, 2) - 2; before < i; ++before)
-        add_link(chain[before].patch, 0);
-    }
     const ChainLink& link = chain[i];
     const bool triangle = link.element != ChainLink::no_element;
-    add_link(link.patch, triangle ? 1 : 0);
-    if (!triangle) continue;
+    if (!triangle) {
+      if (room > 0) add_link(link.patch, 0);
+      continue;
+    }
+    if (room == 0) {
+      room = elements_at_once;
+      begin_chunk(chain[i - 2].patch, final_order);
+      add_link(chain[i - 2].patch, 0);
+      add_link(chain[i - 1].patch, 0);
+    }
+    add_link(link.patch, 1);
     final_order.push_back(link.element);
     work_.cover.elements[link.element].patches = {chain[i - 2].patch, chain[i - 1].patch, link.patch};
     ++partition_.chunks.back().count;

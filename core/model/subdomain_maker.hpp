@@ -55,8 +55,7 @@ class SubdomainMaker {
   std::uint32_t cells_from(std::uint32_t begin, std::uint32_t end) const;
   void add_cells(std::uint32_t i, std::uint32_t cells, std::vector<std::uint32_t>& final_order);
 
-  /// Chunk after chunk. One that begins within a strip has the two links before it once more, without their
-  /// triangles.
+  /// Chunk after chunk. Each begins with a triangle, and with the two links before it, without theirs.
   void add_chain(std::span<const ChainLink> chain, std::vector<std::uint32_t>& final_order);
   void begin_chunk(std::uint32_t patch, const std::vector<std::uint32_t>& final_order);
   void end_chunk(std::uint32_t patch);

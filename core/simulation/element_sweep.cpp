@@ -39,12 +39,9 @@ void clear(const LocalVectors& vectors, std::uint32_t count) {
 }
 
 /// Displacements and velocities of own patches, which lie in the order of their runs.
-RowsAhead rows_ahead(const MotionState& motion, const Partition& partition, std::uint32_t run,
-                     std::uint32_t end) {
-  if (run == end) return {};
-  const PatchRun &first = partition.runs[run], &last = partition.runs[end - 1];
-  return {{&motion.patch_displacement[first.patch].x, &motion.patch_velocity[first.patch].x},
-          2 * (last.patch + last.count - first.patch)};
+RowsAhead rows_ahead(const MotionState& motion, const Partition& partition, std::uint32_t run) {
+  const std::uint32_t patch = run < partition.runs.size() ? partition.runs[run].patch : 0;
+  return {{&motion.patch_displacement[patch].x, &motion.patch_velocity[patch].x}};
 }
 
 using Four = std::array<double*, 4>;
@@ -145,9 +142,7 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
         set(force, partition.slot_local[slot_entered], {});
       }
       // What the next chunk needs comes from memory while this one is worked on.
-      const RowsAhead ahead = c + 1 < subdomain.chunk_end
-                                  ? rows_ahead(motion, partition, entered, partition.chunks[c + 1].run_needed)
-                                  : RowsAhead{};
+      const RowsAhead ahead = rows_ahead(motion, partition, entered);
       const bool cells = chunk.cells > 0;
       const TriangleChain chain = cells ? TriangleChain{} : chain_of(partition, chunk, at, force, ahead);
       // A material that goes on to the forces by itself is asked for stress where that is kept alone.

@@ -2,6 +2,8 @@
 #include "model/space_filling.hpp"
 #include "simulation/working_scene.hpp"
 
+#include <talus/material.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
@@ -73,6 +75,8 @@ TEST_CASE("every element is in one chunk and every patch own in one subdomain, o
         for (; slot < chunk.slot_needed; ++slot)
           enter(partition.slot_local[slot], partition.slot_patch[slot]);
         const std::vector<std::uint32_t> links = links_with_triangle(partition, chunk);
+        for (std::uint32_t i = 0; chunk.cells == 0 && i < chunk.links + TriangleChain::links_before; ++i)
+          REQUIRE(patch_of[partition.corner[chunk.link - TriangleChain::links_before + i]] != no_patch);
         REQUIRE(links.size() == (chunk.cells == 0 ? chunk.count : 0));
         for (std::uint32_t i = 0; i < chunk.count; ++i) {
           ++seen[chunk.element + i];

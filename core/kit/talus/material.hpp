@@ -20,10 +20,10 @@ struct MaterialResponse {
   double* state;       ///< of t_n; separate from MaterialBatch::state
 };
 
-/// Two rows in memory that the host reads after a sweep: fetched along the way, they are there in time.
+/// Two rows in memory that the host reads on from after a sweep: fetched along the way, they are there in
+/// time.
 struct RowsAhead {
   const double* from[2];
-  std::uint32_t count;  ///< of each
 };
 
 /// Cells of a regular lattice side by side, each a lower and an upper triangle. Cell c has the corners c, c +

@@ -72,11 +72,12 @@ template <class Some>
   if (i < count) some(i, k, PartOfPack{count - i});
 }
 
-/// Entries [begin, end), as far as there are so many.
-[[gnu::always_inline]] inline void fetch(const RowsAhead& ahead, std::uint32_t begin, std::uint32_t end) {
+/// `count` entries from i on. Where there are fewer nothing is lost but the time.
+template <std::uint32_t count>
+[[gnu::always_inline]] inline void fetch(const RowsAhead& ahead, std::uint32_t i) {
   constexpr std::uint32_t in_line = 64 / sizeof(double);
-  for (std::uint32_t i = begin; i < end && i < ahead.count; i += in_line) {
-    for (const double* row : ahead.from) __builtin_prefetch(row + i, 1);
+  for (std::uint32_t line = 0; line < count; line += in_line) {
+    for (const double* row : ahead.from) __builtin_prefetch(row + i + line, 1);
   }
 }
 
@@ -105,7 +106,7 @@ double sweep_cells(const LatticeCells& cells, const Law& law) {
   EnergySum energy;
   in_packs(
       cells.count, [&](std::uint32_t c, std::uint32_t k, auto row) __attribute__((always_inline)) {
-        fetch(ahead, 2 * c, 2 * (c + simd::lanes));
+        fetch<2 * simd::lanes>(ahead, 2 * c);
         const Pack left_x = row.load(bottom_x + c), right_x = row.load(bottom_x + c + 1);
         const Pack left_y = row.load(bottom_y + c), right_y = row.load(bottom_y + c + 1);
         const Pack over_x = row.load(top_x + c), over_right_x = row.load(top_x + c + 1);
@@ -278,7 +279,7 @@ class ChainPull {
   for (const double* row : chain.gradient) __builtin_prefetch(row + i + links);
   __builtin_prefetch(chain.area + i + links);
   __builtin_prefetch(chain.corner + i + links);
-  fetch(chain.ahead, i, i + simd::lanes);
+  fetch<simd::lanes>(chain.ahead, i);
 }
 
 template <bool beside, class Law>
