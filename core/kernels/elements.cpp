@@ -15,8 +15,6 @@ constexpr std::uint32_t packs = lanes / simd::lanes, width = simd::lanes;
 
 /// How a row is read and written: by full packs, or the first lanes of one.
 struct Whole {
-  static constexpr std::uint32_t count = width;
-
   Pack load(const double* from) const { return simd::load(from); }
   void store(Pack p, double* to) const { simd::store(p, to); }
   Pack only(Pack p) const { return p; }

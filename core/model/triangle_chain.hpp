@@ -17,7 +17,7 @@ struct ChainLink {
 };
 
 /// These elements of a cover in an order in which most share two patches with the one before: each needs one
-/// link where a strip of triangles goes on, two where it turns about the patch before last, which is named
+/// link where a strip of triangles goes on, two where it turns, for which the third last patch is named
 /// again, and three where a strip ends and another begins.
 std::vector<ChainLink> chain_triangles(const LaidCover& cover, std::span<const std::uint32_t> elements);
 

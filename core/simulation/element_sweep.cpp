@@ -38,6 +38,14 @@ void clear(const LocalVectors& vectors, std::uint32_t count) {
   if (vectors.apart()) std::fill_n(vectors.y, count, 0.0);
 }
 
+void fetch(const MotionState& motion, const PatchRun& run) {
+  constexpr std::uint32_t in_line = 64 / sizeof(Vec2);
+  for (std::uint32_t i = 0; i < run.count; i += in_line) {
+    __builtin_prefetch(&motion.patch_displacement[run.patch + i], 1);
+    __builtin_prefetch(&motion.patch_velocity[run.patch + i], 1);
+  }
+}
+
 /// Displacements and velocities of own patches, which lie in the order of their runs.
 RowsAhead rows_ahead(const MotionState& motion, const Partition& partition, std::uint32_t run) {
   const std::uint32_t patch = run < partition.runs.size() ? partition.runs[run].patch : 0;
@@ -141,7 +149,11 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
             motion.patch_displacement[partition.slot_patch[slot_entered]]);
         set(force, partition.slot_local[slot_entered], {});
       }
-      // What the next chunk needs comes from memory while this one is worked on.
+      // What the next chunk needs comes from memory while this one is worked on: a sweep fetches it along the
+      // way.
+      for (std::uint32_t r = entered;
+           sweeping == nullptr && c + 1 < subdomain.chunk_end && r < partition.chunks[c + 1].run_needed; ++r)
+        fetch(motion, partition.runs[r]);
       const RowsAhead ahead = rows_ahead(motion, partition, entered);
       const bool cells = chunk.cells > 0;
       const TriangleChain chain = cells ? TriangleChain{} : chain_of(partition, chunk, at, force, ahead);

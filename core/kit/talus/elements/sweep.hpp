@@ -29,8 +29,6 @@ struct PlanePacks {
 
 /// How rows are read and written: by full packs, or the first lanes of one.
 struct WholePack {
-  static constexpr std::uint32_t count = simd::lanes;
-
   static Pack load(const double* from) { return simd::load(from); }
   static void store(Pack p, double* to) { simd::store(p, to); }
   static Pack only(Pack p) { return p; }
@@ -72,12 +70,19 @@ template <class Some>
   if (i < count) some(i, k, PartOfPack{count - i});
 }
 
+/// What lies so many bytes on from where a row starts, which may be beyond its end: no pointer may leave its
+/// row.
+[[gnu::always_inline]] inline void fetch_line(const void* row, std::size_t bytes) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
+  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(row) + bytes));
+}
+
 /// `count` entries from i on. Where there are fewer nothing is lost but the time.
 template <std::uint32_t count>
 [[gnu::always_inline]] inline void fetch(const RowsAhead& ahead, std::uint32_t i) {
   constexpr std::uint32_t in_line = 64 / sizeof(double);
   for (std::uint32_t line = 0; line < count; line += in_line) {
-    for (const double* row : ahead.from) __builtin_prefetch(row + i + line, 1);
+    for (const double* row : ahead.from) fetch_line(row, sizeof(double) * (i + line));
   }
 }
 
@@ -275,10 +280,10 @@ class ChainPull {
 
 /// What links further on need from memory: chains lie one after the other.
 [[gnu::always_inline]] inline void fetch_ahead(const TriangleChain& chain, std::uint32_t i) {
-  constexpr std::uint32_t links = 128;
-  for (const double* row : chain.gradient) __builtin_prefetch(row + i + links);
-  __builtin_prefetch(chain.area + i + links);
-  __builtin_prefetch(chain.corner + i + links);
+  const std::size_t further = std::size_t{i} + 128;
+  for (const double* row : chain.gradient) fetch_line(row, sizeof(double) * further);
+  fetch_line(chain.area, sizeof(double) * further);
+  fetch_line(chain.corner, sizeof(std::uint32_t) * further);
   fetch<simd::lanes>(chain.ahead, i);
 }
 
