@@ -209,13 +209,13 @@ struct Corners {
   }
   /// Adds to those of as many links as a pack has lanes, one after the other: some may be the same.
   static void add(simd::Packs2 what, double* x, double* y, const std::uint32_t* at) {
-    alignas(64) double both[simd::lanes][2];
+    alignas(64) double both[2 * simd::lanes];
     Pack halves[2];
     simd::interleave(what.x, what.y, halves);
-    simd::store(halves[0], both[0]);
-    simd::store(halves[1], both[0] + simd::lanes);
+    simd::store(halves[0], both);
+    simd::store(halves[1], both + simd::lanes);
     for (std::uint32_t lane = 0; lane < simd::lanes; ++lane)
-      store(load(x, y, at[lane]) + load_pair(both[lane]), x, y, at[lane]);
+      store(load(x, y, at[lane]) + load_pair(both + 2 * lane), x, y, at[lane]);
   }
 };
 
