@@ -23,11 +23,24 @@ bool has_parts(const std::filesystem::path& folder) {
                      [](const auto& entry) { return entry.path().extension() == ".part"; });
 }
 
-/// As in "holds the state at t = 0.0625 s".
-std::string time_of_state(const std::string& err) {
+/// As in "holds the state at t = 0.0625 s", of six digits.
+double time_of_state(const std::string& err) {
   const std::string before = "holds the state at t = ";
-  const std::size_t at = err.find(before) + before.size();
-  return err.substr(at, err.find(' ', at) - at);
+  const std::size_t at = err.find(before);
+  REQUIRE(at != std::string::npos);
+  return std::stod(err.substr(at + before.size()));
+}
+
+/// A history up to the middle of the last line that any state of that time needs: the last row that is surely
+/// earlier, however its time was rounded, or the names of the columns.
+std::string cut_before(double time, const std::string& history) {
+  std::size_t end = history.find('\n');
+  for (std::size_t row = end + 1, next = 0; row < history.size(); row = next + 1) {
+    next = std::min(history.find('\n', row), history.size() - 1);
+    if (!(std::stod(history.substr(row)) < time * (1 - 1e-5))) break;
+    end = next;
+  }
+  return history.substr(0, end - 10);
 }
 
 }  // namespace
@@ -98,8 +111,8 @@ TEST_CASE("Results that are cut off or changed after a checkpoint are not contin
   REQUIRE(call.code == 5);
   const std::filesystem::path history = scratch / "full/history.csv";
   const std::string whole = read_whole_file(history);
-  // How early the state is that was kept depends on the clock: what it needs ends before the row of its time.
-  write_whole_file(history, whole.substr(0, whole.find('\n' + time_of_state(call.err) + ',') - 10));
+  // How early the state is that was kept depends on the clock.
+  write_whole_file(history, cut_before(time_of_state(call.err), whole));
   call = call_talus(scratch.folder(), {"resume", "full", "--quiet"});
   CHECK((call.code == 2 || call.code == 5));
   CHECK_THAT(call.err, Contains("history.csv"));
