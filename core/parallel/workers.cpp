@@ -1,6 +1,7 @@
 #include "parallel/workers.hpp"
 
 #include "output/input_error.hpp"
+#include "parallel/subnormals.hpp"
 
 #include <fmt/format.h>
 
@@ -81,6 +82,7 @@ void Workers::share(std::size_t chunks, Call call, const void* context) {
 }
 
 void Workers::serve(std::size_t number) {
+  const NoSubnormals as_the_caller;
   for (std::uint32_t seen = 0;;) {
     std::uint32_t now = order_.edition.load(std::memory_order_acquire);
     for (int i = 0; now == seen || now % 2 != 0; ++i) {

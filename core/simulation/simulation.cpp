@@ -2,6 +2,7 @@
 
 #include "model/fragments.hpp"
 #include "output/hash.hpp"
+#include "parallel/subnormals.hpp"
 #include "simulation/state.hpp"
 
 #include <fmt/format.h>
@@ -64,6 +65,7 @@ Geometry Simulation::geometry() const {
 }
 
 bool Simulation::settle(const Pause& pause) {
+  const NoSubnormals in_steps;
   State& s = *state_;
   if (!s.scene.settle || s.settle_over || s.started) return true;
   if (!s.settling) {
@@ -90,6 +92,7 @@ bool Simulation::settle(const Pause& pause) {
 }
 
 bool Simulation::advance(const Pause& pause) {
+  const NoSubnormals in_steps;
   State& s = *state_;
   const double interval = s.scene.output.history, end = s.scene.time.end;
   const auto output_time = [&](std::uint64_t number) {

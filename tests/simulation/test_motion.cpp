@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace talus;
 
@@ -228,3 +229,27 @@ TEST_CASE("dashpots across a contact do not feed the strain of a block that slid
     CHECK(simulation.body_motion(1).displacement.x == Approx(3 * 2.5 + along * 2.5 * 2.5 / 2).epsilon(1e-4));
   }
 }
+
+#if defined(__x86_64__)
+
+TEST_CASE("motion that dies away ends in 0, not in subnormal numbers", "[simulation][motion]") {
+  for (const char* cover : {"rigid", "block"}) {
+    CAPTURE(cover);
+    WorkingScene text;
+    text.cover = cover;
+    text.bodies = box("a", 0, 0, 1, 1, R"("velocity": [1e-300, 0])");
+    text.rest = R"("damping": 10, )";
+    text.time = R"({"end": 2.5, "dt": 1e-4})";
+    text.output = R"({"history": 0.5})";
+    Simulation simulation(text.read(), {});
+    std::vector<double> speeds;
+    while (simulation.advance()) speeds.push_back(simulation.body_motion(0).velocity.x);
+    REQUIRE(speeds.size() == 6);
+    for (std::size_t i = 0; i < 4; ++i)
+      CHECK(speeds[i] == Approx(1e-300 * std::exp(-5.0 * static_cast<double>(i))).epsilon(1e-3));
+    CHECK(speeds[4] == 0);
+    CHECK(speeds[5] == 0);
+  }
+}
+
+#endif
