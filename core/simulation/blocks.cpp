@@ -10,30 +10,42 @@
 namespace talus {
 namespace {
 
+void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift) {
+  const double squared = v.x * v.x + v.y * v.y, off_x = v.x - drift.x, off_y = v.y - drift.y;
+  all.add({squared, squared, v.x, v.x, v.y, v.y, off_x * off_x + off_y * off_y, true});
+}
+
 /// Of a strip the first corner alone: the second is the first of the next one.
-kernels::SpeedExtremes speeds_of(const Model& model, const MotionState& motion, const Body& body,
-                                 std::span<const kernels::CornerDrift> drift) {
+kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& motion, const Body& body,
+                                         std::span<const kernels::CornerDrift> drift) {
   kernels::SpeedExtremes all;
   for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
     const std::uint32_t begin = model.piece_start[piece],
                         end = model.is_strip[piece] != 0 ? begin + 1 : model.piece_start[piece + 1];
-    for (std::uint32_t c = begin; c < end; ++c) {
-      const double vx = motion.corners[c].vx, vy = motion.corners[c].vy, squared = vx * vx + vy * vy;
-      const double off_x = vx - drift[c].x, off_y = vy - drift[c].y;
-      all.add({squared, squared, vx, vx, vy, vy, off_x * off_x + off_y * off_y, true});
-    }
+    for (std::uint32_t c = begin; c < end; ++c)
+      add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
   }
+  return all;
+}
+
+/// The same of a body of many elements whose corners are left behind.
+kernels::SpeedExtremes speeds_of_sides(const Model& model, const MotionState& motion, const Body& body,
+                                       std::span<const kernels::CornerDrift> drift) {
+  kernels::SpeedExtremes all;
+  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side)
+    add(all, motion.velocity(model.sides[side].start),
+        drift[model.piece_start[body.piece_begin + side - body.side_begin]]);
   return all;
 }
 
 }  // namespace
 
-Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_contact)
+Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool boundary_seen)
     : kernels_(kernels::block_kernels(level)),
       workers_(workers),
       moving_(model.moving_bodies),
       left_to_others_(moving_.begin(), moving_.end()),
-      in_contact_(in_contact) {
+      boundary_seen_(boundary_seen) {
   blocks_.reserve(model.bodies.size());
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
@@ -145,9 +157,13 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
   for (const std::uint32_t body : others_) {
     motion.forces[body] = {};
     if (is_asleep(body)) continue;
+    if (!boundary_seen_ && model.covered(body)) {
+      all.add(speeds_of_sides(model, motion, model.bodies[body], drift));
+      continue;
+    }
     motion.move_corners(model, body);
-    if (in_contact_) motion.shape_boundary(model, body);
-    all.add(speeds_of(model, motion, model.bodies[body], drift));
+    if (boundary_seen_) motion.shape_boundary(model, body);
+    all.add(speeds_of_corners(model, motion, model.bodies[body], drift));
   }
   if (!all.any) return {};
   if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, 0, true});

@@ -10,8 +10,8 @@ namespace talus {
 /// follows it. Everything else about a body is in the Model.
 class Blocks {
  public:
-  /// `in_contact`: whether anybody asks for the shape of boundaries, or only how fast they are.
-  Blocks(const Model& model, SimdLevel level, Workers& workers, bool in_contact);
+  /// `boundary_seen`: whether anybody asks where boundaries are, or only how fast.
+  Blocks(const Model& model, SimdLevel level, Workers& workers, bool boundary_seen);
 
   /// From now on these supports hold; bodies with any are left to the caller.
   void set_supports(std::span<const Support> supports);
@@ -65,7 +65,7 @@ class Blocks {
   };
   std::vector<Stretch> stretches_;
   std::vector<Chunk> chunks_;
-  bool in_contact_;
+  bool boundary_seen_;
   bool some_fixed_ = false;
   std::vector<kernels::SpeedExtremes> speeds_;
   std::vector<kernels::BlockSums> sums_;

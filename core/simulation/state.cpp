@@ -36,7 +36,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       workers(settings.threads),
       model(build_model(scene, numbering.outer)),
       motion(model),
-      blocks(model, scene.simd, workers, scene.contact.component != nullptr),
+      blocks(model, scene.simd, workers, scene.contact.component != nullptr || scene.sleep),
       mass(model),
       contacts(scene, model, workers, settings.neighbour_skin, scene.simd),
       deformation(scene, model, workers),
