@@ -2,10 +2,29 @@
 
 #include "simulation/patch_mass.hpp"
 
+#include <algorithm>
+
 namespace talus {
 namespace {
 
 constexpr std::size_t gather_chunk = 1024;  ///< common patches
+
+std::size_t most_chunks(const Model& model) {
+  std::size_t most = 0;
+  for (const std::uint32_t b : model.covered_bodies) {
+    const std::size_t common = model.bodies[b].patch_end - model.bodies[b].own_end;
+    most = std::max(most, (common + gather_chunk - 1) / gather_chunk);
+  }
+  return most;
+}
+
+void add(kernels::VelocitySums& total, const kernels::VelocitySums& part) {
+  total.before += part.before;
+  total.across += part.across;
+  total.after += part.after;
+  total.momentum[0] += part.momentum[0];
+  total.momentum[1] += part.momentum[1];
+}
 
 /// With equal steps, no damping and no gravity the kinetic energy needs one product alone.
 bool wants_all_sums(const StepConditions& c) {
@@ -22,6 +41,7 @@ Deformation::Deformation(const Scene& scene, const Model& model, Workers& worker
       workers_(workers),
       workspaces_(static_cast<std::size_t>(workers.threads()), sweep_.workspace()),
       sums_(model.partition.subdomains.size()),
+      common_sums_(most_chunks(model)),
       updated_(model.covered_bodies.empty() ? 0 : model.bodies.size()) {
   lay_out_blocks(model, {});
 }
@@ -53,7 +73,7 @@ double Deformation::stored_in(const Model& model, std::uint32_t index) const {
 
 Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt, bool keep) {
   const Energy blocks = apply_to_blocks(model, dt, keep, motion);
-  for (OwnPatches& own : updated_) own = {};
+  for (UpdatedPatches& updated : updated_) updated = {};
   for (const std::uint32_t b : model.covered_bodies) sweep(model, b, {.dt = dt, .keep = keep}, motion);
   motion.own_behind = 0;
   const Energy many = energy_of_sweeps(model);
@@ -67,13 +87,17 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
   const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
-    updated_[b] = {!support_of(supports, b).any(), {}};
-    SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = updated_[b].done};
+    const bool free = !support_of(supports, b).any();
+    // Patches that are tied to others, or bring more mass along, are told from those by PatchMass alone.
+    const bool alone = model.bodies[b].steady_begin == model.bodies[b].steady_end;
+    updated_[b] = {free, free && alone, {}};
+    SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = free};
     step.velocity = {
         update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
     step.inverse_mass = mass.inverse().data();
     step.share = share_of_after(conditions);
     step.middle = at_step.patches.data();
+    step.update_common = updated_[b].common;
     sweep(model, b, step, motion);
   }
   motion.own_behind = 0;
@@ -90,20 +114,19 @@ void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep
                   sweep_.run(model, body, first, last, step, materials_, motion, workspaces_[thread], sums_);
                 });
   workers_.over(body.patch_end - body.own_end, gather_chunk,
-                [&](std::size_t, std::size_t begin, std::size_t end) {
-                  sweep_.gather(model, body, static_cast<std::uint32_t>(begin),
-                                static_cast<std::uint32_t>(end), motion);
+                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                  const auto first = static_cast<std::uint32_t>(begin),
+                             last = static_cast<std::uint32_t>(end);
+                  sweep_.gather(model, body, first, last, motion);
+                  common_sums_[chunk] = {};
+                  if (step.update_common)
+                    sweep_.update_common(model, body, first, last, step, motion, common_sums_[chunk]);
                 });
   if (!step.update) return;
   kernels::VelocitySums& total = updated_[index].sums;
-  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
-    const kernels::VelocitySums& part = sums_[s].own;
-    total.before += part.before;
-    total.across += part.across;
-    total.after += part.after;
-    total.momentum[0] += part.momentum[0];
-    total.momentum[1] += part.momentum[1];
-  }
+  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) add(total, sums_[s].own);
+  for (std::size_t chunk = 0; chunk * gather_chunk < body.patch_end - body.own_end; ++chunk)
+    add(total, common_sums_[chunk]);
 }
 
 Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {

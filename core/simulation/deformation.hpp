@@ -28,8 +28,9 @@ class Deformation {
   /// are set, not added to, for nothing else acts on them. `keep`: stresses are wanted for output.
   Energy apply(const Model& model, MotionState& motion, double dt, bool keep = true);
 
-  /// The same, and own patches of bodies without supports go on to v₊ at once; accelerate() then does the
-  /// rest of them (see updated()). Their velocity at t_n is left in `at_step` where it is kept.
+  /// The same, and patches of bodies without supports go on to v₊ at once, so all other forces must be there;
+  /// accelerate() then does the rest of them (see updated()). Their velocity at t_n is left in `at_step`
+  /// where it is kept.
   Energy apply_and_update(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                           const StepConditions& conditions, bool keep, MotionState& motion,
                           VelocitiesAtStep& at_step);
@@ -41,8 +42,8 @@ class Deformation {
   /// J/m, in a body that moves as a whole, where energies are kept.
   double stored_in(const Model& model, std::uint32_t body) const;
 
-  /// [body] what the last call did to own patches; empty where no body has any.
-  const std::vector<OwnPatches>& updated() const { return updated_; }
+  /// [body] what the last call did to patches; empty where no body has any.
+  const std::vector<UpdatedPatches>& updated() const { return updated_; }
 
   /// Cauchy stress xx, yy, xy, Pa, of an element, when stresses were last kept.
   std::array<double, 3> cauchy_of_element(std::size_t element) const { return materials_.cauchy(element); }
@@ -76,7 +77,8 @@ class Deformation {
   Workers& workers_;
   std::vector<ElementSweep::Workspace> workspaces_;  ///< [thread]
   std::vector<SweepSums> sums_;                      ///< [subdomain]
-  std::vector<OwnPatches> updated_;
+  std::vector<kernels::VelocitySums> common_sums_;   ///< [chunk of the common patches of a body]
+  std::vector<UpdatedPatches> updated_;
 
   std::vector<Blocks> blocks_;
   std::vector<Energy> block_energies_;  ///< [entry of blocks_]

@@ -200,4 +200,14 @@ void ElementSweep::gather(const Model& model, const Body& body, std::uint32_t be
   }
 }
 
+void ElementSweep::update_common(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
+                                 const SweepStep& step, MotionState& motion,
+                                 kernels::VelocitySums& sums) const {
+  const std::uint32_t first = body.own_end + begin;
+  double* const force = flat(motion.patch_force, first);
+  kernels_.accelerate(end - begin, step.velocity, false, model.patch_mass.data() + first,
+                      step.inverse_mass + first, {force, force + 1, 2}, flat(motion.patch_velocity, first),
+                      step.keep ? &step.middle[first].x : nullptr, step.share, sums);
+}
+
 }  // namespace talus

@@ -20,6 +20,7 @@ struct SweepStep {
   const double* inverse_mass = nullptr;  ///< [patch] m/kg
   double share = 0;                      ///< of v₊ in the velocity at t_n
   Vec2* middle = nullptr;                ///< [patch] takes that velocity, where it is kept
+  bool update_common = false;            ///< common patches are updated, too
 };
 
 /// Energies of the elements, J/m, and sums over the own patches where they were updated.
@@ -52,6 +53,9 @@ class ElementSweep {
   /// Adds what subdomains left for common patches [begin, end) of a body, from its first.
   void gather(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
               MotionState& motion) const;
+  /// The velocity update of these, when all forces on them are there. Adds to `sums`.
+  void update_common(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
+                     const SweepStep& step, MotionState& motion, kernels::VelocitySums& sums) const;
 
  private:
   const kernels::ElementKernels& kernels_;

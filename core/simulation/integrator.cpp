@@ -147,7 +147,7 @@ double kinetic_energy(const Body& body, double density, const BodyMotion& p, con
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
                             MotionState& motion, VelocitiesAtStep& at_step,
-                            std::span<const OwnPatches> updated) {
+                            std::span<const UpdatedPatches> updated) {
   AccelerationWork work;
   blocks.accelerate(conditions, motion, observed ? at_step.bodies.data() : nullptr, work);
   const Update update = update_of(conditions);
@@ -156,7 +156,7 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
     const Body& body = model.bodies[i];
     if (body.kinematics == Kinematics::covered) {
       accelerate_patches(model, mass, i, support_of(supports, i), conditions, update,
-                         updated.empty() ? OwnPatches{} : updated[i], motion, at_step, work);
+                         updated.empty() ? UpdatedPatches{} : updated[i], motion, at_step, work);
       continue;
     }
     accelerate_whole(body, motion.forces[i], support_of(supports, i), conditions, update, motion.bodies[i],

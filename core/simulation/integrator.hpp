@@ -34,9 +34,9 @@ struct VelocitiesAtStep {
 
 class Blocks;
 
-/// Own patches (see Partition) of a body, where a sweep over its elements has brought them to v₊ already.
-struct OwnPatches {
-  bool done = false;
+/// Patches of a body that a sweep over its elements has brought to v₊ already, and sums over them.
+struct UpdatedPatches {
+  bool own = false, common = false;  ///< see Partition
   kernels::VelocitySums sums{};
 };
 
@@ -46,7 +46,7 @@ struct OwnPatches {
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
                             MotionState& motion, VelocitiesAtStep& at_step,
-                            std::span<const OwnPatches> updated = {});
+                            std::span<const UpdatedPatches> updated = {});
 
 /// The moments that deform a body, J/m, without what turns it as a whole about its centroid: where its
 /// rotation is prescribed, a support carries that. `h` is ∂u/∂X.

@@ -64,8 +64,8 @@ double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t 
   return mass.product(model, body, first, side, mirrored) / 2;
 }
 
-/// The same of own patches, from the products of v₋ and v₊: v = v₋ + s (v₊ − v₋) is mirrored to (1 − 2s) v₋ +
-/// 2s v₊, at the start (s = 0) to 2 v₋ − v₊.
+/// The same of updated patches, from the products of v₋ and v₊: v = v₋ + s (v₊ − v₋) is mirrored to (1 − 2s)
+/// v₋ + 2s v₊, at the start (s = 0) to 2 v₋ − v₊.
 double kinetic_at_step(const kernels::VelocitySums& sums, const StepConditions& conditions) {
   if (conditions.dt_behind == conditions.dt_ahead) return sums.across / 2;
   const double share = share_of_after(conditions);
@@ -83,10 +83,10 @@ void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_
 
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
                         const Support& support, const StepConditions& conditions, const Update& update,
-                        const OwnPatches& own, MotionState& motion, VelocitiesAtStep& at_step,
+                        const UpdatedPatches& updated, MotionState& motion, VelocitiesAtStep& at_step,
                         AccelerationWork& work) {
   const Body& body = model.bodies[index];
-  const std::uint32_t first = own.done ? body.own_end : body.patch_begin;
+  const std::uint32_t first = updated.common ? body.patch_end : updated.own ? body.own_end : body.patch_begin;
   const std::size_t count = body.patch_end - first;
   const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
   const std::span<Vec2> middle(at_step.patches.data() + first, count);
@@ -94,7 +94,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
   before.assign(after.begin(), after.end());
 
   mass.accelerations(model, index, first, motion.patch_force);
-  Vec2 momentum{own.sums.momentum[0], own.sums.momentum[1]};
+  Vec2 momentum{updated.sums.momentum[0], updated.sums.momentum[1]};
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 acceleration = along(motion.patch_force[first + i], 1, conditions.gravity);
     after[i] = {update.keep * after[i].x + update.gain * acceleration.x,
@@ -112,14 +112,14 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                  before[i].y + share * (after[i].y - before[i].y)};
 
   work.kinetic += kinetic_at_step(model, mass, index, first, conditions, before, middle, after) +
-                  kinetic_at_step(own.sums, conditions);
+                  kinetic_at_step(updated.sums, conditions);
   work.external_work += gravity_work(conditions, momentum);
   if (conditions.damping > 0) {
     const double rest = 1 - share;
-    const double behind =
-        mass.product(model, index, first, middle, before) + rest * own.sums.before + share * own.sums.across;
-    const double ahead =
-        mass.product(model, index, first, middle, after) + rest * own.sums.across + share * own.sums.after;
+    const double behind = mass.product(model, index, first, middle, before) + rest * updated.sums.before +
+                          share * updated.sums.across;
+    const double ahead = mass.product(model, index, first, middle, after) + rest * updated.sums.across +
+                         share * updated.sums.after;
     work.damping_loss += conditions.damping * behind * conditions.dt_behind / 2;
     work.damping_loss_ahead += conditions.damping * ahead * conditions.dt_ahead / 2;
   }

@@ -45,9 +45,9 @@ inline double share_of_after(const StepConditions& conditions) {
 void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_t body,
                          const Support& support, const MotionState& motion, std::span<Vec2> acceleration);
 
-/// The patches of a body of many elements.
+/// The patches of a body of many elements that are left.
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
-                        const StepConditions& conditions, const Update& update, const OwnPatches& updated,
+                        const StepConditions& conditions, const Update& update, const UpdatedPatches& updated,
                         MotionState& motion, VelocitiesAtStep& at_step, AccelerationWork& work);
 
 }  // namespace talus
