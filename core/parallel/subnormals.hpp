@@ -10,7 +10,7 @@ namespace talus {
 /// motion dies away, they carry nothing, and each costs a processor a hundred cycles or more. Every thread of
 /// a step does, so that results do not depend on who computed what; where a processor has no such mode, they
 /// are kept.
-class NoSubnormals {
+class [[maybe_unused]] NoSubnormals {
  public:
 #if defined(__x86_64__)
   NoSubnormals() : before_(_mm_getcsr()) {

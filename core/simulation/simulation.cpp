@@ -24,6 +24,7 @@ const Scene& Simulation::scene() const {
 }
 
 void Simulation::take_geometry(const Geometry& geometry) {
+  const NoSubnormals as_in_steps;
   State& s = *state_;
   s.touch_as_drawn();
   const double* from = geometry.unknowns.data();

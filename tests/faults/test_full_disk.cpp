@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <string>
 
 using namespace talus;
 using Catch::Matchers::Contains;
