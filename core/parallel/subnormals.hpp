@@ -7,9 +7,8 @@
 namespace talus {
 
 /// While it lives, its thread takes numbers below 2.2e-308 for 0. Ahead of a wave in a large body, and where
-/// motion dies away, they carry nothing, and each costs a processor a hundred cycles or more. Every thread of
-/// a step does, so that results do not depend on who computed what; where a processor has no such mode, they
-/// are kept.
+/// motion dies away, they carry nothing, and cost a processor more than others. Every thread of a step does,
+/// so that results do not depend on who computed what; where a processor has no such mode, they are kept.
 class [[maybe_unused]] NoSubnormals {
  public:
 #if defined(__x86_64__)
