@@ -227,8 +227,10 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   body.patch_begin = static_cast<std::uint32_t>(model.patch_star.size());
   body.subdomain_begin = static_cast<std::uint32_t>(model.partition.subdomains.size());
   body.lattice = static_cast<std::uint32_t>(model.partition.lattices.size());
-  body.own_end =
-      body.patch_begin + partition_cover(model.partition, cover, carrying(cover, loaded), body.patch_begin);
+  const PartitionCounts counts =
+      partition_cover(model.partition, cover, carrying(cover, loaded), body.patch_begin);
+  body.own_end = body.patch_begin + counts.own;
+  body.free_end = body.patch_begin + counts.free;
   body.subdomain_end = static_cast<std::uint32_t>(model.partition.subdomains.size());
   const RegularLattice& lattice = model.partition.lattices[body.lattice];
   model.patch_star.insert(model.patch_star.end(), cover.patches.begin(), cover.patches.end());

@@ -84,8 +84,9 @@ struct Body {
   std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
 
   // Covered: how it is divided (see Partition).
-  std::uint32_t own_end = 0;                             ///< patches from patch_begin on that are own
-  std::uint32_t common_index = 0;                        ///< of patch own_end in Partition::common_start
+  std::uint32_t own_end = 0;       ///< patches from patch_begin on that are own
+  std::uint32_t free_end = 0;      ///< common patches before it have no part in `steady`
+  std::uint32_t common_index = 0;  ///< of patch own_end in Partition::common_start
   std::uint32_t subdomain_begin = 0, subdomain_end = 0;  ///< its subdomains
   std::uint32_t lattice = 0;                             ///< entry of Partition::lattices
 };

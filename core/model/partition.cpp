@@ -91,10 +91,6 @@ void find_common(PartitionWork& work, const std::vector<std::uint32_t>& loaded) 
     for (const LaidCover::BoundaryVertex& vertex : loop) mark(vertex.element);
   }
   for (const std::uint32_t element : loaded) mark(element);
-  for (const LaidCover::Steadied& one : cover.steadied) {
-    work.common[one.patch] = 1;
-    for (const std::uint32_t patch : one.to) work.common[patch] = 1;
-  }
   for (std::uint32_t s = 0; s + 1 < work.subdomain_start.size(); ++s) {
     for (std::uint32_t i = work.subdomain_start[s]; i < work.subdomain_start[s + 1]; ++i) {
       for (const std::uint32_t patch : cover.elements[work.order[i]].patches) {
@@ -105,6 +101,11 @@ void find_common(PartitionWork& work, const std::vector<std::uint32_t>& loaded) 
   }
   for (std::size_t p = 0; p < work.home.size(); ++p) {
     if (work.home[p] == none) work.common[p] = 1;
+  }
+  constexpr std::uint8_t last = 2;
+  for (const LaidCover::Steadied& one : cover.steadied) {
+    work.common[one.patch] = last;
+    for (const std::uint32_t patch : one.to) work.common[patch] = last;
   }
 }
 
@@ -134,8 +135,8 @@ void rank_patches(PartitionWork& work) {
   }
 }
 
-/// Own patches subdomain after subdomain, then the common ones. Returns how many are own.
-std::uint32_t number_patches(PartitionWork& work) {
+/// Own patches subdomain after subdomain, then the common ones, those last that slivers are about.
+PartitionCounts number_patches(PartitionWork& work) {
   const std::size_t count = work.cover.patches.size();
   std::vector<std::uint32_t> sorted(count);
   std::iota(sorted.begin(), sorted.end(), 0u);
@@ -146,12 +147,13 @@ std::uint32_t number_patches(PartitionWork& work) {
     return key(p) < key(q);
   });
   work.number.resize(count);
-  std::uint32_t own = 0;
+  PartitionCounts counts;
   for (std::uint32_t i = 0; i < count; ++i) {
     work.number[sorted[i]] = i;
-    own += work.common[sorted[i]] == 0 ? 1 : 0;
+    counts.own += work.common[sorted[i]] == 0 ? 1 : 0;
+    counts.free += work.common[sorted[i]] <= 1 ? 1 : 0;
   }
-  return own;
+  return counts;
 }
 
 /// Puts the cover into the new order.
@@ -180,8 +182,8 @@ void renumber(PartitionWork& work, const std::vector<std::uint32_t>& final_order
 
 }  // namespace
 
-std::uint32_t partition_cover(Partition& partition, LaidCover& cover,
-                              const std::vector<std::uint32_t>& loaded, std::uint32_t first_patch) {
+PartitionCounts partition_cover(Partition& partition, LaidCover& cover,
+                                const std::vector<std::uint32_t>& loaded, std::uint32_t first_patch) {
   PartitionWork work{cover, find_lattice(cover), {}, {}, {}, {}, {}, {}, {}};
   work.order.resize(cover.elements.size());
   std::iota(work.order.begin(), work.order.end(), 0u);
@@ -194,7 +196,7 @@ std::uint32_t partition_cover(Partition& partition, LaidCover& cover,
   if (!work.lattice) order_by_chain(work);
   find_common(work, loaded);
   rank_patches(work);
-  const std::uint32_t own = number_patches(work);
+  const PartitionCounts counts = number_patches(work);
   std::vector<std::uint32_t> final_order;
   final_order.reserve(work.order.size());
   SubdomainMaker maker(partition, work, first_patch);
@@ -208,7 +210,7 @@ std::uint32_t partition_cover(Partition& partition, LaidCover& cover,
     lattice = {{b.y / cell, -b.x / cell, -a.y / cell, a.x / cell}, cell / 2};
   }
   partition.lattices.push_back(lattice);
-  return own;
+  return counts;
 }
 
 }  // namespace talus

@@ -69,12 +69,18 @@ struct Partition {
   }
 };
 
+/// How many patches of a body come first in the new numbers.
+struct PartitionCounts {
+  std::uint32_t own = 0;   ///< of one subdomain each
+  std::uint32_t free = 0;  ///< with the common ones that are not steadied and steady no others
+};
+
 /// Numbers patches and elements of a cover anew, so that what is worked on together lies together, and adds
 /// its subdomains: by row and column where a regular lattice is found in it, otherwise along a space-filling
-/// curve. Elements of `loaded`, of the boundary, and with steadied patches have common patches only. Returns
-/// how many patches are own; they come first. Gradients and areas of triangles are left for later, as are
-/// masses; `first_patch` is what the model adds to the numbers of patches.
-std::uint32_t partition_cover(Partition& partition, LaidCover& cover,
-                              const std::vector<std::uint32_t>& loaded, std::uint32_t first_patch);
+/// curve. Elements of `loaded`, of the boundary, and with steadied patches have common patches only.
+/// Gradients and areas of triangles are left for later, as are masses; `first_patch` is what the model adds
+/// to the numbers of patches.
+PartitionCounts partition_cover(Partition& partition, LaidCover& cover,
+                                const std::vector<std::uint32_t>& loaded, std::uint32_t first_patch);
 
 }  // namespace talus

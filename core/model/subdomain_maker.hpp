@@ -18,7 +18,7 @@ struct PartitionWork {
   std::vector<std::uint32_t> order;            ///< elements by subdomain
   std::vector<std::uint32_t> subdomain_start;  ///< [subdomain + 1] into `order`
   std::vector<std::vector<ChainLink>> chain;   ///< [subdomain] without a lattice: all of it
-  std::vector<std::uint8_t> common;            ///< [patch]
+  std::vector<std::uint8_t> common;            ///< [patch] 0 own, 1 common, 2 common and about slivers
   std::vector<std::uint32_t> home;             ///< [patch] its first subdomain
   std::vector<std::uint32_t> rank;             ///< [patch] by which patches of a subdomain are sorted
   std::vector<std::uint32_t> number;           ///< [patch] new

@@ -88,16 +88,13 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
     const bool free = !support_of(supports, b).any();
-    // Patches that are tied to others, or bring more mass along, are told from those by PatchMass alone.
-    const bool alone = model.bodies[b].steady_begin == model.bodies[b].steady_end;
-    updated_[b] = {free, free && alone, {}};
+    updated_[b] = {free ? model.bodies[b].free_end : 0, {}};
     SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = free};
     step.velocity = {
         update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
     step.inverse_mass = mass.inverse().data();
     step.share = share_of_after(conditions);
     step.middle = at_step.patches.data();
-    step.update_common = updated_[b].common;
     sweep(model, b, step, motion);
   }
   motion.own_behind = 0;
@@ -119,8 +116,9 @@ void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep
                              last = static_cast<std::uint32_t>(end);
                   sweep_.gather(model, body, first, last, motion);
                   common_sums_[chunk] = {};
-                  if (step.update_common)
-                    sweep_.update_common(model, body, first, last, step, motion, common_sums_[chunk]);
+                  const std::uint32_t free = std::min(last, body.free_end - body.own_end);
+                  if (step.update && first < free)
+                    sweep_.update_common(model, body, first, free, step, motion, common_sums_[chunk]);
                 });
   if (!step.update) return;
   kernels::VelocitySums& total = updated_[index].sums;

@@ -14,13 +14,12 @@ struct SweepStep {
   double dt = 0;      ///< s, t_n − t_{n−1}
   bool keep = false;  ///< deformation, stress and velocity at t_n, for output
 
-  /// The velocity update of own patches, where nothing has to be known of the whole body first.
+  /// The velocity update of free patches, where nothing has to be known of the whole body first.
   bool update = false;
   kernels::VelocityUpdate velocity{};
   const double* inverse_mass = nullptr;  ///< [patch] m/kg
   double share = 0;                      ///< of v₊ in the velocity at t_n
   Vec2* middle = nullptr;                ///< [patch] takes that velocity, where it is kept
-  bool update_common = false;            ///< common patches are updated, too
 };
 
 /// Energies of the elements, J/m, and sums over the own patches where they were updated.

@@ -36,7 +36,7 @@ class Blocks;
 
 /// Patches of a body that a sweep over its elements has brought to v₊ already, and sums over them.
 struct UpdatedPatches {
-  bool own = false, common = false;  ///< see Partition
+  std::uint32_t end = 0;  ///< from the first of the body to this one; 0: none
   kernels::VelocitySums sums{};
 };
 

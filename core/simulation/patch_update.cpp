@@ -1,5 +1,7 @@
 #include "simulation/velocity_update.hpp"
 
+#include <algorithm>
+
 // Vectors of a size that depends on the body keep their room from call to call: a step asks for no memory.
 
 namespace talus {
@@ -86,7 +88,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                         const UpdatedPatches& updated, MotionState& motion, VelocitiesAtStep& at_step,
                         AccelerationWork& work) {
   const Body& body = model.bodies[index];
-  const std::uint32_t first = updated.common ? body.patch_end : updated.own ? body.own_end : body.patch_begin;
+  const std::uint32_t first = std::max(updated.end, body.patch_begin);
   const std::size_t count = body.patch_end - first;
   const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
   const std::span<Vec2> middle(at_step.patches.data() + first, count);
