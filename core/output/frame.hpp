@@ -49,8 +49,8 @@ class FrameWriter {
   std::filesystem::path folder_;
   std::uint64_t count_ = 0;
   std::string entries_;  ///< DataSet lines of the .pvd
-  /// [body][part][cell][corner], as in the first frame
-  std::vector<std::vector<std::vector<std::vector<std::int64_t>>>> cells_;
+  /// [part with holes][3 * triangle + corner], as in the first frame
+  std::vector<std::vector<std::int64_t>> triangles_;
 };
 
 Grid contact_grid(const Frame& frame);

@@ -35,12 +35,14 @@ void Recorder::exchange(Archive& archive) {
 
 void Recorder::record_due() {
   if (simulation_.history_due()) record_row();
-  if (frames_ && simulation_.frame_due()) record_frame();
+  if (frames_ && simulation_.frame_due()) record_frame(sample_frame(simulation_));
 }
 
 void Recorder::record_last() {
   record_row();
-  if (frames_ && sample_frame(simulation_).finite()) record_frame();
+  if (!frames_) return;
+  const Frame frame = sample_frame(simulation_);
+  if (frame.finite()) record_frame(frame);
 }
 
 void Recorder::record_row() {
@@ -53,11 +55,10 @@ void Recorder::record_row() {
   for (std::size_t i = 0; i < values.size(); ++i) series_.values[i].push_back(values[i]);
 }
 
-void Recorder::record_frame() {
-  const double time = simulation_.time();
-  if (!(time > last_frame_)) return;
-  frames_->add(sample_frame(simulation_));
-  last_frame_ = time;
+void Recorder::record_frame(const Frame& frame) {
+  if (!(frame.time > last_frame_)) return;
+  frames_->add(frame);
+  last_frame_ = frame.time;
 }
 
 }  // namespace talus

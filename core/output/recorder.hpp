@@ -31,7 +31,7 @@ class Recorder {
 
  private:
   void record_row();
-  void record_frame();
+  void record_frame(const Frame& frame);
 
   const Simulation& simulation_;
   std::filesystem::path folder_;

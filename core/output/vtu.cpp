@@ -43,19 +43,21 @@ void append_data(std::string& text, std::string_view tag, const std::vector<Grid
 
 void append_base64(std::string& text, const unsigned char* bytes, std::size_t size) {
   constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::size_t at = text.size();
+  text.resize(at + (size + 2) / 3 * 4);
   for (std::size_t i = 0; i < size; i += 3) {
     const std::size_t left = std::min<std::size_t>(3, size - i);
     const std::uint32_t three = static_cast<std::uint32_t>(bytes[i]) << 16 |
                                 (left > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8 : 0u) |
                                 (left > 2 ? static_cast<std::uint32_t>(bytes[i + 2]) : 0u);
-    text += letters[three >> 18 & 63];
-    text += letters[three >> 12 & 63];
-    text += left > 1 ? letters[three >> 6 & 63] : '=';
-    text += left > 2 ? letters[three & 63] : '=';
+    text[at++] = letters[three >> 18 & 63];
+    text[at++] = letters[three >> 12 & 63];
+    text[at++] = left > 1 ? letters[three >> 6 & 63] : '=';
+    text[at++] = left > 2 ? letters[three & 63] : '=';
   }
 }
 
-void Grid::add_cell(CellType type, const std::vector<std::int64_t>& corners) {
+void Grid::add_cell(CellType type, std::span<const std::int64_t> corners) {
   connectivity.insert(connectivity.end(), corners.begin(), corners.end());
   offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   types.push_back(type);

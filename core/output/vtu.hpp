@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,7 +27,7 @@ struct Grid {
   std::vector<CellType> types;        ///< [cell]
   std::vector<GridArray> point_data, cell_data;
 
-  void add_cell(CellType type, const std::vector<std::int64_t>& corners);
+  void add_cell(CellType type, std::span<const std::int64_t> corners);
 };
 
 /// A .vtu file: inline binary, base64 over zlib. ParaView 5.11 cannot open the appended form, this one opens

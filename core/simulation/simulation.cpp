@@ -295,11 +295,13 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
     for (const Loop& hole : s.scene.bodies[index].holes) add_loop(hole);
     return parts;
   }
+  parts.reserve(b.element_end - b.element_begin);
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
     const std::uint32_t element = s.model.body_element[i];
     BodyPart& part = parts.emplace_back(BodyPart{{}, s.deformation.cauchy_of_element(element)});
     for (const Ring& ring : s.model.element_region[element]) {
       std::vector<PartPoint>& points = part.loops.emplace_back();
+      points.reserve(ring.size());
       for (const Vec2 at : ring) {
         const Carrier carrier = s.model.carrier(s.model.elements[element], at);
         const Vec2 now = carried(carrier, s.motion.patch_displacement),

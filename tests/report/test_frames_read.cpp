@@ -14,8 +14,7 @@ namespace {
 Grid two_contacts() {
   Grid grid;
   grid.points = {0, 0, 0, 1, 0, 0};
-  grid.add_cell(CellType::vertex, {0});
-  grid.add_cell(CellType::vertex, {1});
+  for (const std::int64_t corner : {0, 1}) grid.add_cell(CellType::vertex, {&corner, 1});
   grid.point_data = {{"normal_force", 3, std::vector<double>{3, 4, 0, 0, -1, 0}},
                      {"tangential_force", 3, std::vector<double>{0, 0, 0, 2, 0, 0}},
                      {"slipping", 1, std::vector<std::int32_t>{0, 1}}};
