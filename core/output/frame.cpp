@@ -27,13 +27,6 @@ std::vector<GridArray> array_list(Arrays&&... arrays) {
   return list;
 }
 
-template <class Each>
-void over_parts(const Frame& frame, const Each& each) {
-  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
-    for (const BodyPart& part : frame.bodies[i].parts) each(i, part);
-  }
-}
-
 /// A polygon of VTK has no holes.
 bool is_polygon(const BodyPart& part) {
   return part.loops.size() == 1;
@@ -62,17 +55,31 @@ class BodyGrid {
     grid_.types.reserve(cells);
   }
 
-  /// The points of a part; its cells come next. Returns the number of the first.
-  std::int64_t add_points(const BodyPart& part, Vec2 origin) {
-    const auto first = static_cast<std::int64_t>(grid_.points.size() / 3);
+  /// The next body, and the numbers of its points; none: all differ.
+  void begin_body(std::span<const std::uint32_t> numbers) {
+    first_ = points();
+    numbers_ = numbers;
+  }
+
+  /// The points of a part that are not there yet; its cells come next. Returns the numbers of all in the
+  /// grid, until the next call.
+  std::span<const std::int64_t> add_points(const BodyPart& part, Vec2 origin) {
+    part_.clear();
     for (const std::vector<PartPoint>& loop : part.loops) {
       for (const PartPoint& point : loop) {
+        if (numbers_.empty()) {
+          part_.push_back(points());
+        } else {
+          part_.push_back(first_ + numbers_.front());
+          numbers_ = numbers_.subspan(1);
+        }
+        if (part_.back() < points()) continue;
         append(grid_.points, {origin.x + point.position.x, origin.y + point.position.y});
         append(displacement_, point.displacement);
         append(velocity_, point.velocity);
       }
     }
-    return first;
+    return part_;
   }
 
   void add_cell(CellType type, std::span<const std::int64_t> corners, const FrameBody& body,
@@ -95,7 +102,12 @@ class BodyGrid {
   }
 
  private:
+  std::int64_t points() const { return static_cast<std::int64_t>(grid_.points.size() / 3); }
+
   Grid grid_;
+  std::int64_t first_ = 0;                  ///< point of the body
+  std::span<const std::uint32_t> numbers_;  ///< of those of its points that are still to come
+  std::vector<std::int64_t> part_;
   std::vector<double> displacement_, velocity_, speed_;
   std::array<std::vector<double>, 3> stress_;
   std::vector<std::int32_t> material_, body_;
@@ -149,37 +161,47 @@ Grid contact_grid(const Frame& frame) {
   return grid;
 }
 
-FrameWriter::FrameWriter(const std::filesystem::path& folder) : folder_(folder) {
+PointNumbers point_numbers(const Simulation& simulation) {
+  PointNumbers numbers;
+  for (std::size_t i = 0; i < simulation.scene().bodies.size(); ++i)
+    numbers.push_back(simulation.distinct_points(i));
+  return numbers;
+}
+
+FrameWriter::FrameWriter(const std::filesystem::path& folder, PointNumbers numbers)
+    : folder_(folder), numbers_(std::move(numbers)) {
   std::filesystem::create_directories(folder_ / "frames");
 }
 
 Grid FrameWriter::body_grid(const Frame& frame) {
   std::size_t points = 0, corners = 0, cells = 0, holed = 0;
-  over_parts(frame, [&](std::size_t, const BodyPart& part) {
-    for (const std::vector<PartPoint>& loop : part.loops) points += loop.size();
-    if (!is_polygon(part) && count_ == 0) triangles_.push_back(triangles_of(part));
-    const std::size_t of_part = is_polygon(part) ? part.loops[0].size() : triangles_[holed++].size();
-    corners += of_part;
-    cells += is_polygon(part) ? 1 : of_part / 3;
-  });
+  for (const FrameBody& body : frame.bodies) {
+    for (const BodyPart& part : body.parts) {
+      for (const std::vector<PartPoint>& loop : part.loops) points += loop.size();
+      if (!is_polygon(part) && count_ == 0) triangles_.push_back(triangles_of(part));
+      const std::size_t of_part = is_polygon(part) ? part.loops[0].size() : triangles_[holed++].size();
+      corners += of_part;
+      cells += is_polygon(part) ? 1 : of_part / 3;
+    }
+  }
   BodyGrid grid(points, corners, cells);
   holed = 0;
-  std::vector<std::int64_t> ring;
-  over_parts(frame, [&](std::size_t number, const BodyPart& part) {
-    const FrameBody& body = frame.bodies[number];
-    const std::int64_t first = grid.add_points(part, frame.origin);
-    if (is_polygon(part)) {
-      ring.resize(part.loops[0].size());
-      std::iota(ring.begin(), ring.end(), first);
-      grid.add_cell(CellType::polygon, ring, body, number, part);
-      return;
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const FrameBody& body = frame.bodies[i];
+    grid.begin_body(numbers_.empty() ? std::span<const std::uint32_t>{} : numbers_[i]);
+    for (const BodyPart& part : body.parts) {
+      const std::span<const std::int64_t> at = grid.add_points(part, frame.origin);
+      if (is_polygon(part)) {
+        grid.add_cell(CellType::polygon, at, body, i, part);
+        continue;
+      }
+      for (std::span<const std::int64_t> left = triangles_[holed++]; !left.empty(); left = left.subspan(3)) {
+        const auto corner = [&](std::size_t k) { return at[static_cast<std::size_t>(left[k])]; };
+        const std::array triangle{corner(0), corner(1), corner(2)};
+        grid.add_cell(CellType::triangle, triangle, body, i, part);
+      }
     }
-    const std::vector<std::int64_t>& triangles = triangles_[holed++];
-    for (std::size_t k = 0; k < triangles.size(); k += 3) {
-      const std::array triangle{first + triangles[k], first + triangles[k + 1], first + triangles[k + 2]};
-      grid.add_cell(CellType::triangle, triangle, body, number, part);
-    }
-  });
+  }
   return grid.take();
 }
 
@@ -194,8 +216,9 @@ void FrameWriter::add(const Frame& frame) {
   ++count_;
 }
 
-std::uint64_t FrameWriter::bytes_of(const Frame& frame) {
+std::uint64_t FrameWriter::bytes_of(const Frame& frame, PointNumbers numbers) {
   FrameWriter writer;
+  writer.numbers_ = std::move(numbers);
   return vtu_text(writer.body_grid(frame), frame.time).size() +
          vtu_text(contact_grid(frame), frame.time).size();
 }

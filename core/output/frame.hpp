@@ -28,15 +28,20 @@ struct Frame {
 
 Frame sample_frame(const Simulation& simulation);
 
+/// [body][point] which points of the parts of a body are one and the same (see
+/// Simulation::distinct_points()); empty where there are none such.
+using PointNumbers = std::vector<std::vector<std::uint32_t>>;
+PointNumbers point_numbers(const Simulation& simulation);
+
 /// Writes `frames.pvd` and, beside it, `frames/frame_000000.vtu` (bodies) and `frames/contacts_000000.vtu`
 /// (contact forces as points). The .pvd lists only whole files and is itself whole at any moment.
 class FrameWriter {
  public:
-  explicit FrameWriter(const std::filesystem::path& folder);
+  FrameWriter(const std::filesystem::path& folder, PointNumbers numbers);
 
   void add(const Frame& frame);
   /// Size of the files of such a frame.
-  static std::uint64_t bytes_of(const Frame& frame);
+  static std::uint64_t bytes_of(const Frame& frame, PointNumbers numbers);
 
   /// What was written so far; taken out of an archive it is what the .pvd lists from now on.
   void exchange(Archive& archive);
@@ -47,6 +52,7 @@ class FrameWriter {
   Grid body_grid(const Frame& frame);
 
   std::filesystem::path folder_;
+  PointNumbers numbers_;
   std::uint64_t count_ = 0;
   std::string entries_;  ///< DataSet lines of the .pvd
   /// [part with holes][3 * triangle + corner], as in the first frame

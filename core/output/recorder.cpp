@@ -11,7 +11,7 @@ constexpr const char *history_name = "history.csv", *energy_name = "energy.csv";
 
 Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& folder)
     : simulation_(simulation), folder_(folder), columns_(monitor_columns(simulation.scene())) {
-  if (simulation.scene().output.frames) frames_.emplace(folder);
+  if (simulation.scene().output.frames) frames_.emplace(folder, point_numbers(simulation));
   series_.names = columns_;
   series_.values.resize(columns_.size());
 }

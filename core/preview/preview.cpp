@@ -81,7 +81,8 @@ double measure_output(const Simulation& simulation, Preview& preview) {
                                   row_bytes(scene.output.history / 3, energies(simulation.ledger())));
   if (preview.frames == 0) return 0;
   const Stopwatch watch(CpuClock::process);
-  preview.bytes += preview.frames * FrameWriter::bytes_of(sample_frame(simulation));
+  preview.bytes +=
+      preview.frames * FrameWriter::bytes_of(sample_frame(simulation), point_numbers(simulation));
   return watch.elapsed().wall;
 }
 

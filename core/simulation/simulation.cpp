@@ -1,5 +1,6 @@
 #include "simulation/simulation.hpp"
 
+#include "model/distinct_points.hpp"
 #include "model/fragments.hpp"
 #include "output/hash.hpp"
 #include "parallel/subnormals.hpp"
@@ -313,6 +314,12 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
     }
   }
   return parts;
+}
+
+std::vector<std::uint32_t> Simulation::distinct_points(std::size_t body) const {
+  const std::uint32_t index = state_->numbering.inside(body);
+  if (!state_->model.covered(index)) return {};
+  return talus::distinct_points(state_->model, index);
 }
 
 std::vector<std::uint32_t> Simulation::fragments(std::size_t body) const {

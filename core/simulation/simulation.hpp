@@ -168,6 +168,9 @@ class Simulation {
   Motion point_motion(std::size_t body, Vec2 point_at_start) const;
   std::vector<BodyPart> parts(std::size_t body) const;
   std::vector<std::uint32_t> fragments(std::size_t body) const;  ///< [part] see fragments_of()
+  /// [point] of parts(), loop after loop, see talus::distinct_points(); empty where the body moves as a
+  /// whole.
+  std::vector<std::uint32_t> distinct_points(std::size_t body) const;
   std::size_t patch_count() const;
   std::size_t element_count() const;
   std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any

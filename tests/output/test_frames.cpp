@@ -58,7 +58,7 @@ TEST_CASE("an inline array decodes to its bytes at every block boundary", "[outp
 
 TEST_CASE("a frame's file decodes to the corners, fields and cells of its bodies", "[output][vtu]") {
   const Scratch scratch;
-  FrameWriter writer(scratch.folder());
+  FrameWriter writer(scratch.folder(), {});
   writer.add(example_frame(0));
   const std::string file = read_whole_file(scratch / "frames/frame_000000.vtu");
   CHECK_THAT(file, Contains("compressor=\"vtkZLibDataCompressor\"") && Contains("header_type=\"UInt64\"") &&
@@ -84,6 +84,33 @@ TEST_CASE("a frame's file decodes to the corners, fields and cells of its bodies
   CHECK(decode::array<std::int32_t>(file, "body")[8] == 1);
 }
 
+TEST_CASE("points that are one and the same are written once", "[output][vtu]") {
+  const Scratch scratch;
+  Frame frame = example_frame(0);
+  FrameBody two_parts{{}, 1, 0.5};
+  two_parts.parts.push_back({{{at(5, 0), at(6, 0), at(5, 1)}}, {1, 2, 3}});
+  two_parts.parts.push_back({{{at(6, 0), at(6, 1), at(5, 1)}}, {4, 5, 6}});
+  frame.bodies.insert(frame.bodies.begin(), two_parts);
+  FrameWriter(scratch.folder(), {{0, 1, 2, 1, 3, 2}, {}, {0, 1, 2, 3, 4, 5, 6, 7}}).add(frame);
+  const Grid grid = read_vtu_text(read_whole_file(scratch / "frames/frame_000000.vtu"));
+  REQUIRE(grid.points.size() == 3 * (4 + 4 + 8));
+  const std::vector<std::int64_t> expected{0, 1, 2, 1, 3, 2, 4, 5, 6, 7};
+  CHECK(std::vector<std::int64_t>(grid.connectivity.begin(), grid.connectivity.begin() + 10) == expected);
+  CHECK(grid.points[3 * 3] == 500006);
+  CHECK(grid.points[3 * 3 + 1] == 1);
+  CHECK(grid.points[3 * 4] == 500000);
+  const Scratch other;
+  FrameWriter(other.folder(), {}).add(frame);
+  const Grid each = read_vtu_text(read_whole_file(other / "frames/frame_000000.vtu"));
+  REQUIRE(each.connectivity.size() == grid.connectivity.size());
+  for (std::size_t i = 0; i < grid.connectivity.size(); ++i) {
+    const auto p = static_cast<std::size_t>(grid.connectivity[i]),
+               q = static_cast<std::size_t>(each.connectivity[i]);
+    CHECK(grid.points[3 * p] == each.points[3 * q]);
+    CHECK(grid.points[3 * p + 1] == each.points[3 * q + 1]);
+  }
+}
+
 TEST_CASE("a frame's file decodes to the places, forces and depths of its contacts", "[output][vtu]") {
   const std::string file = vtu_text(contact_grid(example_frame(0.5)), 0.5);
   CHECK(decode::array<double>(file, "Points") == std::vector<double>{500001, 0.5, 0});
@@ -105,7 +132,7 @@ TEST_CASE("a frame without contacts is a file all the same", "[output][vtu]") {
 
 TEST_CASE("the collection lists every time from the first frame on", "[output][pvd]") {
   const Scratch scratch;
-  FrameWriter writer(scratch.folder());
+  FrameWriter writer(scratch.folder(), {});
   for (const double time : {0.0, 0.1, 0.30000000000000004}) {
     writer.add(example_frame(time));
     const std::string collection = read_whole_file(scratch / "frames.pvd");
@@ -142,7 +169,7 @@ TEST_CASE("triangles fill a polygon with holes", "[output][triangulate]") {
 
 TEST_CASE("a frame that is damaged is refused by what is wrong with it", "[output][vtu]") {
   const Scratch scratch;
-  FrameWriter(scratch.folder()).add(example_frame(0));
+  FrameWriter(scratch.folder(), {}).add(example_frame(0));
   const std::string whole = read_whole_file(scratch / "frames/frame_000000.vtu");
   const Grid good = read_vtu_text(whole);
   const auto refusal = [](const std::string& text) {
