@@ -5,10 +5,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
 namespace talus {
+namespace {
+
+bool sees_contacts(const Monitor& monitor) {
+  return std::any_of(monitor.quantities.begin(), monitor.quantities.end(),
+                     [](const std::string& name) { return find_quantity(name)->of_contacts; });
+}
+
+}  // namespace
 
 std::vector<std::string> monitor_columns(const Scene& scene) {
   std::vector<std::string> columns;
@@ -22,13 +31,16 @@ std::vector<std::string> monitor_columns(const Scene& scene) {
 
 std::vector<double> sample_monitors(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
+  const bool touched = std::any_of(scene.monitors.begin(), scene.monitors.end(), sees_contacts);
+  const std::vector<Contact> contacts = touched ? simulation.contacts() : std::vector<Contact>{};
   std::vector<double> values;
   for (const Monitor& monitor : scene.monitors) {
-    const Motion motion = monitor.point ? simulation.point_motion(monitor.body, *monitor.point)
-                                        : simulation.body_motion(monitor.body);
-    for (const std::string& name : monitor.quantities) {
-      values.push_back(find_quantity(name)->value(motion, scene.origin));
-    }
+    Sampled sampled{monitor.point ? simulation.point_motion(monitor.body, *monitor.point)
+                                  : simulation.body_motion(monitor.body),
+                    scene.origin};
+    if (sees_contacts(monitor))
+      sampled.contact = contact_sum(contacts, monitor.body, sampled.motion.position);
+    for (const std::string& name : monitor.quantities) values.push_back(find_quantity(name)->value(sampled));
   }
   return values;
 }
