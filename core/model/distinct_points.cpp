@@ -7,7 +7,8 @@
 namespace talus {
 namespace {
 
-constexpr double no_weight = 1e-9;  ///< of a patch that a point does not hang on, but for rounding
+/// Of a patch that a point does not hang on, but for rounding or for what a cover takes for a coincidence.
+constexpr double no_weight = 2e-7;
 
 /// The patches that a point hangs on, rising; behind them no_patch.
 std::array<std::uint32_t, 3> patches_of(const Carrier& carrier) {

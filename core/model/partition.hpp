@@ -77,9 +77,9 @@ struct PartitionCounts {
 
 /// Numbers patches and elements of a cover anew, so that what is worked on together lies together, and adds
 /// its subdomains: by row and column where a regular lattice is found in it, otherwise along a space-filling
-/// curve. Elements of `loaded`, of the boundary, and with steadied patches have common patches only.
-/// Gradients and areas of triangles are left for later, as are masses; `first_patch` is what the model adds
-/// to the numbers of patches.
+/// curve. Elements of `loaded` and of the boundary have common patches only, and what steadied patches lean
+/// on is common like them. Gradients and areas of triangles are left for later, as are masses; `first_patch`
+/// is what the model adds to the numbers of patches.
 PartitionCounts partition_cover(Partition& partition, LaidCover& cover,
                                 const std::vector<std::uint32_t>& loaded, std::uint32_t first_patch);
 

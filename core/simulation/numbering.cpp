@@ -51,6 +51,7 @@ Scene renumbered(Scene scene, const Numbering& numbering) {
     if (of_bodies.empty()) return;
     auto listed = std::move(of_bodies);
     of_bodies.clear();
+    of_bodies.reserve(listed.size());
     for (const std::uint32_t body : numbering.outer) of_bodies.push_back(std::move(listed[body]));
   };
   const auto renumber = [&](auto& of_bodies) {

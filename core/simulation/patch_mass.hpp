@@ -17,7 +17,7 @@ class PatchMass {
   explicit PatchMass(const Model& model);
 
   /// Turns the forces on the patches of a body, from `first` on, into accelerations, in place. `patches` are
-  /// those of all bodies; what has to do with slivers is among the common ones.
+  /// those of all bodies; `first` is not beyond Body::free_end, from which on they have to do with slivers.
   void accelerations(const Model& model, std::uint32_t body, std::uint32_t first,
                      std::vector<Vec2>& patches) const;
   void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const {
@@ -28,7 +28,7 @@ class PatchMass {
   void tie(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
 
   /// pᵀ M q of two velocity fields on the patches of a body, J/m twice over. They hold that body's patches
-  /// alone, from `first` on.
+  /// alone, from `first` on, which is not beyond Body::free_end.
   double product(const Model& model, std::uint32_t body, std::uint32_t first, std::span<const Vec2> p,
                  std::span<const Vec2> q) const;
   double product(const Model& model, std::uint32_t body, std::span<const Vec2> p,

@@ -111,6 +111,27 @@ TEST_CASE("points that are one and the same are written once", "[output][vtu]") 
   }
 }
 
+TEST_CASE("a writer that goes on from a checkpoint fills holes as it did", "[output][vtu][checkpoint]") {
+  const Scratch scratch, other;
+  FrameWriter whole(scratch.folder(), {}), again(other.folder(), {});
+  whole.add(example_frame(0));
+  Archive out(0);
+  whole.exchange(out);
+  const std::string bytes = out.take_bytes();
+  Archive in(bytes);
+  again.exchange(in);
+  CHECK(in.at_end());
+  // Its hole has come so near to a corner that other triangles would be found by now.
+  Frame later = example_frame(0.1);
+  for (PartPoint& point : later.bodies[1].parts[0].loops[1]) point.position.x -= 0.45;
+  whole.add(later);
+  again.add(later);
+  const std::string file = read_whole_file(scratch / "frames/frame_000001.vtu");
+  CHECK(file == read_whole_file(other / "frames/frame_000001.vtu"));
+  CHECK(read_vtu_text(file).connectivity ==
+        read_vtu_text(read_whole_file(scratch / "frames/frame_000000.vtu")).connectivity);
+}
+
 TEST_CASE("a frame's file decodes to the places, forces and depths of its contacts", "[output][vtu]") {
   const std::string file = vtu_text(contact_grid(example_frame(0.5)), 0.5);
   CHECK(decode::array<double>(file, "Points") == std::vector<double>{500001, 0.5, 0});

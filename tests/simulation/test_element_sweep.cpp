@@ -80,6 +80,14 @@ std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const Mot
   return forces;
 }
 
+/// Two of them, the second with slivers; only the first meets what comes first in the arrays.
+Scene two_lattices() {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 3, 2, R"("cover": {"model": "hexagonal", "size": 0.06, "slivers": "keep"})") +
+                "," + box("b", 10, 0, 13, 2, R"("cover": {"model": "hexagonal", "size": 0.06, "angle": 7})");
+  return text.read();
+}
+
 std::vector<Scene> all_scenes() {
   return {lattice("linear_elastic"), lattice("hypoelastic"), mesh("linear_elastic"), mesh("hypoelastic")};
 }
@@ -133,10 +141,11 @@ TEST_CASE("keeping stress for output changes no bits", "[continuum][sweep]") {
 TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "[continuum][sweep]") {
   std::vector<Scene> scenes = all_scenes();
   scenes.push_back(lattice("linear_elastic", "mass_scale"));
+  scenes.push_back(two_lattices());
   for (const Scene& scene : scenes) {
     const Model model = build_model(scene);
     const PatchMass mass(model);
-    const std::vector<Support> supports(1);
+    const std::vector<Support> supports(model.bodies.size());
     Blocks blocks(model, best_simd_level(), alone(), true);
     for (const double ahead : {1e-6, 1.5e-6}) {
       const StepConditions conditions{{0, -9.81}, {0, -9.81}, 20, 1e-6, ahead, true};
@@ -144,17 +153,20 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
       disturb(model, one);
       disturb(model, two);
       Deformation first(scene, model, alone()), second(scene, model, alone());
-      VelocitiesAtStep at_one{std::vector<BodyVelocity>(1), std::vector<Vec2>(model.patch_star.size())};
+      VelocitiesAtStep at_one{std::vector<BodyVelocity>(model.bodies.size()),
+                              std::vector<Vec2>(model.patch_star.size())};
       VelocitiesAtStep at_two = at_one;
       one.own_behind = two.own_behind = 1e-6;
       one.clear_forces(model);
       two.clear_forces(model);
       const Deformation::Energy now =
           first.apply_and_update(model, mass, supports, conditions, true, one, at_one);
-      const Body& body = model.bodies[0];
-      REQUIRE(body.free_end > body.own_end);
-      REQUIRE((body.free_end == body.patch_end) == model.steady.empty());
-      REQUIRE(first.updated()[0].end == body.free_end);
+      for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const Body& body = model.bodies[b];
+        REQUIRE(body.free_end > body.own_end);
+        REQUIRE((body.free_end == body.patch_end) == (body.steady_begin == body.steady_end));
+        REQUIRE(first.updated()[b].end == body.free_end);
+      }
       const AccelerationWork work =
           accelerate(model, mass, supports, conditions, true, blocks, one, at_one, first.updated());
       const Deformation::Energy same = second.apply(model, two, 1e-6);
