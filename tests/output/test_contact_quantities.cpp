@@ -51,8 +51,7 @@ TEST_CASE("contact forces on a body are what changes its momentum, dashpots and 
     while (simulation.advance()) {
       const Vec2 v = simulation.body_motion(2).velocity;
       const Vec2 now = contact_sum(simulation.contacts(), 2, {}).force;
-      // v at t_n is the mean of those before and after it, so a step brings half of the force at either
-      // end.
+      // v at t_n is the mean of those before and after it: a step brings half of the force at either end.
       const auto expected = [&](double before, double after, double g) {
         return dt * ((before + after) / (2 * mass) + g);
       };

@@ -80,7 +80,8 @@ std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const Mot
   return forces;
 }
 
-/// Two of them, the second with slivers; only the first meets what comes first in the arrays.
+/// Two bodies, of which the second alone has slivers that are tied; what is its own begins behind the
+/// other's.
 Scene two_lattices() {
   WorkingScene text;
   text.bodies = box("a", 0, 0, 3, 2, R"("cover": {"model": "hexagonal", "size": 0.06, "slivers": "keep"})") +
