@@ -275,6 +275,15 @@ void check_writes(const Subject& subject, Trial& trial) {
   expect_within(batch, "24 pairs, all active, between marked zones");
   expect_within(only(batch, every_second(batch, 0)), "24 pairs, every second active");
   expect_within(only(batch, every_second(batch, 1)), "24 pairs, every second active, from the second on");
+  DrivenLaw roomless(*subject.component);
+  roomless.first_capacity = 0;
+  fill_with_pairs(roomless);
+  expect_within(roomless.given(), "24 pairs, none with room for contacts");
+  trial.feed("24 pairs, asked again with room for the contacts they count, and with room at once");
+  for (int step = 0; step < 3; ++step) {
+    const Evaluation with = driven.step(), without = roomless.step();
+    trial.due(with.history == without.history, "another history", "the same bits");
+  }
   DrivenLaw rows(*subject.component);
   rows.bodies = saw_teeth(1e-3).bodies;
   expect_within(rows.given(), "two rows of teeth with room for one contact only");

@@ -127,7 +127,7 @@ GivenBatch DrivenLaw::given(double dt) {
   std::vector<PiecePair> piece_pairs;
   for (const auto& [a, b] : met) {
     const HeldBody &one = bodies[a], &other = bodies[b];
-    const PairState& state = history[{a, b}];
+    const PairState& state = history.try_emplace({a, b}, PairState{{}, 0, first_capacity}).first->second;
     BodyPair pair{};
     pair.a = a, pair.b = b;
     pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs.size());

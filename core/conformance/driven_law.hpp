@@ -43,6 +43,7 @@ class DrivenLaw {
 
   std::vector<HeldBody> bodies;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> met;  ///< pairs of bodies; all of them if empty
+  std::uint32_t first_capacity = 1;                          ///< slots of a pair before it has asked for any
   double master_share = 0.5;                                 ///< of the body of lower number, in every pair
   bool hold_stick = false, bonds_form = false;
   bool plain = true;  ///< false: bodies are never said to be plain, so every pair goes the general way
@@ -63,7 +64,7 @@ class DrivenLaw {
 
   struct PairState {
     std::vector<double> history;
-    std::uint32_t contacts = 0, capacity = 1;
+    std::uint32_t contacts = 0, capacity = 0;
   };
   using History = std::map<std::pair<std::uint32_t, std::uint32_t>, PairState>;
   History history;

@@ -11,7 +11,6 @@ namespace {
 /// Share of the mean width by which boxes are grown with the skin off: laws see a little further than bodies
 /// overlap, vertex_edge a hundredth of an edge.
 constexpr double sight = 0.02;
-constexpr std::uint32_t first_capacity = 2;  ///< contacts of a new pair before room must be made
 
 }  // namespace
 
@@ -79,13 +78,12 @@ void ContactStage::note_neighbours(const Model& model) {
 
 void ContactStage::rebuild_pairs(const Model& model) {
   const auto touches = [](const BodyPair& pair) { return pair.contact_count > 0; };
+  slots_.close_up(pairs_, batch_begin_);
   former_pairs_.clear();
   make_room_in(former_pairs_, static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), touches)));
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const BodyPair& pair = pairs_[i];
+  for (const BodyPair& pair : pairs_) {
     if (!touches(pair)) continue;
-    former_pairs_.push_back(
-        {pair.a, pair.b, slot_of(i), pair.slot_capacity, pair.contact_count, damping_power_[i]});
+    former_pairs_.push_back({pair.a, pair.b, pair.slot_start, pair.slot_capacity, pair.contact_count});
   }
   pairs_.clear();
   piece_pairs_.clear();
@@ -118,36 +116,30 @@ void ContactStage::rebuild_pairs(const Model& model) {
     piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
   }
-  ask_again_.assign(pairs_.size(), 0.0);
-  approach_.assign(pairs_.size(), 0.0);
+  ask_again_.assign(pairs_.size(), 0);
+  approach_.assign(pairs_.size(), 0);
 
   // History goes with its pair: both lists are sorted by bodies.
-  damping_power_.assign(pairs_.size(), 0.0);
-  capacities_.assign(pairs_.size(), 0);
   auto former = former_pairs_.cbegin();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto bodies = [](const auto& pair) { return std::pair{pair.a, pair.b}; };
-    while (former != former_pairs_.cend() && bodies(*former) < bodies(pairs_[i])) ++former;
+  for (BodyPair& pair : pairs_) {
+    const auto bodies = [](const auto& of) { return std::pair{of.a, of.b}; };
+    while (former != former_pairs_.cend() && bodies(*former) < bodies(pair)) ++former;
     if (former == former_pairs_.cend()) break;
-    if (bodies(*former) != bodies(pairs_[i])) continue;
-    pairs_[i].slot_start = former->slot_start;
-    pairs_[i].contact_count = former->contact_count;
-    capacities_[i] = former->slot_capacity;
-    damping_power_[i] = former->damping_power;
+    if (bodies(*former) != bodies(pair)) continue;
+    pair.slot_start = former->slot_start;
+    pair.slot_capacity = former->slot_capacity;
+    pair.contact_count = former->contact_count;
   }
   lay_out_loads(model);
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (capacities_[i] == 0) capacities_[i] = pairs_[i].plain() ? 1 : first_capacity;
-  }
-  lay_out_slots(capacities_);
+  lay_out_slots();
   if (!island_.empty()) hold_sleeping_pairs();
 }
 
 /// By the contacts found since the search: in the first steps of a scene none is known.
 void ContactStage::share_anew(const Model& model) {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].slot_start = slot_of(i);
+  slots_.close_up(pairs_, batch_begin_);
   lay_out_loads(model);
-  lay_out_slots(capacities_);
+  lay_out_slots();
 }
 
 /// Of the pairs there are.

@@ -1,81 +1,123 @@
-#include "contact/contact_stage.hpp"
+#include "contact/contact_slots.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cstring>
 
 namespace talus {
 namespace {
 
-/// With more, what laws keep of them comes from further away than it takes to find it out anew.
-constexpr std::size_t most_planned_pairs = 32768;
+/// Slots that wait in each batch, more where there are many pairs: a few per cent of the pairs meet between
+/// two searches.
+std::size_t waiting_for(std::size_t pairs) {
+  return 8 + pairs / 32;
+}
+
+std::size_t slots_of(std::span<const BodyPair> pairs) {
+  std::size_t slots = 0;
+  for (const BodyPair& pair : pairs) slots += pair.slot_capacity;
+  return slots;
+}
 
 }  // namespace
 
-/// Gives every pair its contact slots, one pair after the other, and moves its contacts there. Where they are
-/// now slot_start tells, counted from the first of all, rising from pair to pair.
-void ContactStage::lay_out_slots(std::span<const std::uint32_t> capacities) {
-  ++layout_;
-  if (pairs_.size() > most_planned_pairs) plans_.clear();
-  while (pairs_.size() <= most_planned_pairs && plans_.size() + 1 < batch_begin_.size())
-    plans_.emplace_back(law_->make_plan());
-  slot_base_.assign(1, 0);
-  std::size_t most = 0, most_slots = 0;
-  for (std::size_t batch = 0; batch + 1 < batch_begin_.size(); ++batch) {
-    const auto begin = capacities.begin() + batch_begin_[batch],
-               end = capacities.begin() + batch_begin_[batch + 1];
-    const std::uint32_t slots = std::accumulate(begin, end, 0U);
-    append_to(slot_base_, slot_base_.back() + slots);
-    most = std::max(most, static_cast<std::size_t>(end - begin));
-    most_slots = std::max(most_slots, std::size_t{slots});
+/// Pairs that met late have their slots behind those of the pairs after them, so a batch is put aside.
+void ContactSlots::close_up(std::span<BodyPair> pairs, std::span<const std::uint32_t> batch_begin) {
+  over_all([&](auto& values, std::size_t per_slot) {
+    const std::size_t size = per_slot * sizeof values[0];
+    if (size == 0) return;
+    auto* const all = reinterpret_cast<unsigned char*>(values.data());
+    make_room_in(aside_, most_ * size);
+    aside_.resize(most_ * size);
+    unsigned char* front = all;
+    for (std::size_t batch = 0; batch + 1 < batch_begin.size() && batch < taken_.size(); ++batch) {
+      const unsigned char* const slots = all + base_[batch] * size;
+      unsigned char* next = aside_.data();
+      for (std::size_t i = batch_begin[batch]; i < batch_begin[batch + 1]; ++i) {
+        const std::size_t bytes = pairs[i].contact_count * size;
+        std::memcpy(next, slots + pairs[i].slot_start * size, bytes);
+        next += bytes;
+      }
+      std::memcpy(front, aside_.data(), static_cast<std::size_t>(next - aside_.data()));
+      front += next - aside_.data();
+    }
+    values.resize(static_cast<std::size_t>(front - all) / sizeof values[0]);
+  });
+  std::uint32_t slot = 0;
+  for (BodyPair& pair : pairs) {
+    pair.slot_start = slot;
+    slot += pair.contact_count;
   }
-  const auto give_room = [](auto& values, std::size_t wanted) {
-    make_room_in(values, wanted);
-    values.resize(wanted);
-  };
-  for (Workspace& workspace : workspaces_) {
-    give_room(workspace.active, most);
-    give_room(workspace.reports, most);
-    give_room(workspace.history, most_slots * history_doubles_);
+}
+
+void ContactSlots::lay_out(std::span<BodyPair> pairs, std::span<const std::uint32_t> batch_begin) {
+  base_.assign(1, 0);
+  taken_.clear();
+  most_ = 0;
+  for (std::size_t batch = 0; batch + 1 < batch_begin.size(); ++batch) {
+    const std::size_t count = batch_begin[batch + 1] - batch_begin[batch],
+                      taken = slots_of(pairs.subspan(batch_begin[batch], count)),
+                      slots = taken + waiting_for(count);
+    append_to(taken_, static_cast<std::uint32_t>(taken));
+    append_to(base_, static_cast<std::uint32_t>(base_.back() + slots));
+    most_ = std::max(most_, slots);
   }
-  move_slots(1, capacities, reports_);
-  move_slots(history_doubles_, capacities, history_);
-  for (std::size_t batch = 0; batch + 1 < batch_begin_.size(); ++batch) {
+  make_room_in(former_base_, base_.size());
+  over_all([&](auto& values, std::size_t per_slot) {
+    // Memory that nobody touches costs nothing, and to move what there is takes twice as much of it.
+    make_room_in(values, std::max<std::size_t>(base_.back(), pairs.size()) * per_slot);
+    values.resize(base_.back() * per_slot);
+    // From the last on: no contact has its place before the one it comes from.
+    for (std::size_t batch = taken_.size(); batch-- > 0;) {
+      std::size_t start = base_[batch] + taken_[batch];
+      for (std::size_t i = batch_begin[batch + 1]; i-- > batch_begin[batch];) {
+        start -= pairs[i].slot_capacity;
+        move(values, per_slot, pairs[i].slot_start, pairs[i].contact_count, start);
+      }
+    }
+  });
+  for (std::size_t batch = 0; batch < taken_.size(); ++batch) {
     std::uint32_t slot = 0;
-    for (std::size_t i = batch_begin_[batch]; i < batch_begin_[batch + 1]; ++i) {
-      pairs_[i].slot_start = slot;
-      pairs_[i].slot_capacity = capacities[i];
-      slot += capacities[i];
+    for (std::size_t i = batch_begin[batch]; i < batch_begin[batch + 1]; ++i) {
+      pairs[i].slot_start = slot;
+      slot += pairs[i].slot_capacity;
     }
   }
 }
 
-/// Within one array: first to the front as closely as they go, then from the last on to their places.
-template <class Values>
-void ContactStage::move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities,
-                              Values& values) {
-  const auto at = [&](std::size_t slot) { return values.data() + slot * values_per_slot; };
-  std::size_t front = 0;
-  for (const BodyPair& pair : pairs_) {
-    const std::size_t from = pair.slot_start;
-    if (from != front) std::copy(at(from), at(from + pair.contact_count), at(front));
-    front += pair.contact_count;
+void ContactSlots::widen(std::span<const std::uint32_t> wanted) {
+  former_base_ = base_;
+  for (std::size_t batch = 0; batch < taken_.size(); ++batch) {
+    const std::size_t needed = std::size_t{taken_[batch]} + wanted[batch];
+    std::size_t slots = former_base_[batch + 1] - former_base_[batch];
+    if (needed > slots) slots = needed + waiting_for(needed);
+    base_[batch + 1] = static_cast<std::uint32_t>(base_[batch] + slots);
+    most_ = std::max(most_, slots);
   }
-  const std::size_t size = slot_base_.back() * values_per_slot;
-  make_room_in(values, size);
-  values.resize(size);
-  std::size_t start = slot_base_.back();
-  for (std::size_t i = pairs_.size(); i-- > 0;) {
-    const std::size_t count = pairs_[i].contact_count;
-    front -= count;
-    start -= capacities[i];
-    if (front != start) std::copy_backward(at(front), at(front + count), at(start + count));
-  }
+  if (base_.back() == former_base_.back()) return;
+  over_all([&](auto& values, std::size_t per_slot) {
+    make_room_in(values, base_.back() * per_slot);
+    values.resize(base_.back() * per_slot);
+    for (std::size_t batch = taken_.size(); batch-- > 0;)
+      move(values, per_slot, former_base_[batch], taken_[batch], base_[batch]);
+  });
 }
 
-/// For the pairs that close() left to be asked about again.
-void ContactStage::make_room() {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].slot_start = slot_of(i);
-  lay_out_slots(capacities_);
+void ContactSlots::give(BodyPair& pair, std::size_t batch, std::uint32_t capacity) {
+  over_all([&](auto& values, std::size_t per_slot) {
+    move(values, per_slot, base_[batch] + pair.slot_start, pair.contact_count, base_[batch] + taken_[batch]);
+  });
+  pair.slot_start = taken_[batch];
+  pair.slot_capacity = capacity;
+  taken_[batch] += capacity;
+}
+
+template <class Values>
+void ContactSlots::move(Values& values, std::size_t per_slot, std::size_t from, std::size_t count,
+                        std::size_t to) {
+  if (from == to || count == 0) return;
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(from * per_slot);
+  std::copy_backward(first, first + static_cast<std::ptrdiff_t>(count * per_slot),
+                     values.begin() + static_cast<std::ptrdiff_t>((to + count) * per_slot));
 }
 
 }  // namespace talus

@@ -23,11 +23,6 @@ constexpr double rounding_share = 1e-9;
 
 constexpr std::uint32_t most_history_doubles = 4096;
 
-/// Room to grow, as far as it can be counted.
-std::uint32_t doubled(std::uint32_t contacts) {
-  return contacts > std::numeric_limits<std::uint32_t>::max() / 2 ? contacts : 2 * contacts;
-}
-
 void noop(void* /*object*/) noexcept {}
 
 /// [surface class] the first that meets all others at the same interfaces.
@@ -81,13 +76,14 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
     clear_depth_.push_back(clear_share * vanishing_depth(&at_start.corners[begin], end - begin));
   }
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
-  history_doubles_ = law_->doubles_per_contact();
-  if (history_doubles_ > most_history_doubles) {
+  const std::uint32_t history_doubles = law_->doubles_per_contact();
+  if (history_doubles > most_history_doubles) {
     throw PluginError(fmt::format(
         "{}: contact law '{}' gave {} doubles of history per contact; wanted {} at most; mend the law",
-        scene.contact.component->file.string(), scene.contact.component->component->name, history_doubles_,
+        scene.contact.component->file.string(), scene.contact.component->component->name, history_doubles,
         most_history_doubles));
   }
+  slots_.keep(history_doubles);
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
                  scene.contact.component->component->interface_parameter_count};
   const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
@@ -152,8 +148,8 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     const Wave now = wave(number);
     ask(model, motion, conditions, now, gone, true, close_batch);
-    while (any_chunk(now, [](const ChunkTotals& chunk) { return chunk.short_of_room; })) {
-      if (const LawFault found = runaway_of(now); !found.found.empty()) {
+    while (some_short_of_room()) {
+      if (const LawFault found = runaway(); !found.found.empty()) {
         fault_ = found;
         return;
       }
@@ -203,7 +199,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
   if (anew) loads_.begin(wave.number);
   const std::size_t first = batch_of(wave.begin), batches = batch_of(wave.end - 1) + 1 - first;
   const auto ask_batch = [&](std::size_t in_wave, std::size_t, std::size_t, std::size_t thread) {
-    const std::size_t number = first + in_wave, slot = slot_base_[number];
+    const std::size_t number = first + in_wave, slot = slots_.first_of(number);
     if (anew) loads_.prepare(number);
     Workspace& found = workspaces_[thread];
     const std::size_t begin = batch_begin_[number], end = batch_begin_[number + 1];
@@ -223,7 +219,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
         interfaces_,
         pairs_.data() + begin,
         piece_pairs_.data(),
-        history_.data() + slot * history_doubles_,
+        slots_.history(slot),
         found.active.data(),
         count,
         conditions.dt,
@@ -232,7 +228,7 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
         gone.travelled == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
         layout_};
     law_->evaluate(batch, {loads_.corner(), found.history.data(),
-                           conditions.observed ? reports_.data() + slot : nullptr, found.reports.data()});
+                           conditions.observed ? slots_.reports(slot) : nullptr, found.reports.data()});
     each(number, std::span<const std::uint32_t>(found.active).first(count), found);
   };
   workers_.over(batches, 1, ask_batch);
@@ -241,16 +237,16 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
 /// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
 /// that is short of room is left as it was, to be asked about again.
 void ContactStage::close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
-                         const Workspace& found) {
-  const std::size_t begin = batch_begin_[batch];
+                         Workspace& found) {
+  const std::size_t begin = batch_begin_[batch], slot = slots_.first_of(batch);
   const kernels::PairBooks books{pairs_.data() + begin,
                                  ask_again_.data() + begin,
                                  approach_.data() + begin,
-                                 damping_power_.data() + begin,
-                                 history_.data() + std::size_t{slot_base_[batch]} * history_doubles_,
+                                 slots_.damping_power(slot),
+                                 slots_.history(slot),
                                  found.history.data(),
                                  found.reports.data(),
-                                 history_doubles_,
+                                 slots_.doubles(),
                                  drift_.data(),
                                  way_,
                                  rounding_share * near_,
@@ -267,9 +263,8 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
     for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_[begin + i], piece_pairs_, true);
     for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_[begin + i], piece_pairs_, false);
-    chunk.short_of_room = closed.short_of_room.count > 0;
     for (const std::uint32_t i : closed.short_of_room) {
-      capacities_[begin + i] = doubled(found.reports[i].contact_count);
+      append_to(found.short_of_room, {static_cast<std::uint32_t>(begin + i), found.reports[i].contact_count});
       ask_again_[begin + i] = in_this_step;
     }
     if (!closed.finite) chunk.unsound = first_unsound(begin, of_chunk, found);

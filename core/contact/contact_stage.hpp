@@ -1,10 +1,10 @@
 #pragma once
 
 #include "checkpoint/archive.hpp"
+#include "contact/contact_slots.hpp"
 #include "contact/contact_totals.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
-#include "contact/room.hpp"
 #include "contact/wave_loads.hpp"
 #include "kernels/blocks.hpp"
 #include "kernels/contacts.hpp"
@@ -84,17 +84,16 @@ class ContactStage {
   }
   /// [contact] of a pair, of a step that was observed.
   std::span<const ContactReport> reports_of(std::size_t pair) const {
-    return {reports_.data() + slot_of(pair), pairs_[pair].contact_count};
+    return {slots_.reports(slot_of(pair)), pairs_[pair].contact_count};
   }
   /// [contact * doubles_per_contact] of a pair.
   std::span<const double> history_of(std::size_t pair) const {
-    return {history_.data() + std::size_t{slot_of(pair)} * history_doubles_,
-            std::size_t{pairs_[pair].contact_count} * history_doubles_};
+    return {slots_.history(slot_of(pair)), std::size_t{pairs_[pair].contact_count} * slots_.doubles()};
   }
 
  private:
   static constexpr std::uint32_t no_pair = 0xFFFFFFFFu;
-  static constexpr double in_this_step = -1;  ///< of ask_again_: less than any way
+  static constexpr float in_this_step = -1;  ///< of ask_again_: less than any way
   static constexpr kernels::Way no_way{0, in_this_step, in_this_step};
 
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
@@ -108,26 +107,28 @@ class ContactStage {
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
   bool fits(const Model& model) const;
-  void lay_out_slots(std::span<const std::uint32_t> capacities);
-  template <class Values>
-  void move_slots(std::size_t values_per_slot, std::span<const std::uint32_t> capacities, Values& values);
-  void make_room();
+  void lay_out_slots();
+  void size_workspaces();
   std::size_t batch_of(std::size_t pair) const {
     return static_cast<std::size_t>(std::upper_bound(batch_begin_.begin(), batch_begin_.end(), pair) -
                                     batch_begin_.begin()) -
            1;
   }
-  std::uint32_t slot_of(std::size_t pair) const {
-    return slot_base_[batch_of(pair)] + pairs_[pair].slot_start;
+  std::size_t slot_of(std::size_t pair) const {
+    return slots_.first_of(batch_of(pair)) + pairs_[pair].slot_start;
   }
+  /// A pair with more contacts than slots.
+  struct ShortOfRoom {
+    std::uint32_t pair, contacts;
+  };
   /// What a law says of a batch of pairs.
   struct Workspace {
     std::vector<std::uint32_t> active;
     std::vector<PairReport> reports;
-    InLines<double> history;  ///< of the slots of the batch
+    InLines<double> history;                 ///< of the slots of the batch
+    std::vector<ShortOfRoom> short_of_room;  ///< of all batches since the last call of make_room()
   };
   struct ChunkTotals : ContactTotals {
-    bool short_of_room = false;
     std::uint32_t unsound = no_pair;  ///< a pair with a report that is no number
   };
   /// Part of the pairs: those whose loads are held at once.
@@ -145,8 +146,9 @@ class ContactStage {
   template <class Each>
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
            const kernels::Way& gone, bool anew, const Each& each);
-  void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active,
-             const Workspace& found);
+  void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active, Workspace& found);
+  bool some_short_of_room();
+  void make_room();
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
@@ -156,7 +158,7 @@ class ContactStage {
                        chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
   }
   void fill_loads(const Model& model, const BodyPair& pair, double value);
-  LawFault runaway_of(const Wave& wave) const;
+  LawFault runaway() const;
   LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
@@ -177,7 +179,6 @@ class ContactStage {
   double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
   double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
   std::uint64_t searches_ = 0;
-  std::uint32_t history_doubles_ = 0;
 
   std::vector<Workspace> workspaces_;  ///< [thread]
   bool keeps_stored_;
@@ -189,7 +190,6 @@ class ContactStage {
   /// What goes with a pair in contact from one search to the next.
   struct FormerPair {
     std::uint32_t a, b, slot_start, slot_capacity, contact_count;
-    double damping_power;
   };
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;
@@ -207,14 +207,11 @@ class ContactStage {
   kernels::Way way_;                                ///< since the drift was taken
   std::uint32_t steps_adrift_ = 0;
   /// [pair] m of way_, when a law is to be asked about it, and at what speed its bodies drift, m/s.
-  std::vector<double> ask_again_, approach_;
-  std::vector<double> damping_power_;      ///< [pair] J/m of the last step
-  std::vector<double> stored_;             ///< [pair] J/m, if keeps_stored_
-  std::vector<std::uint32_t> capacities_;  ///< [pair] its slots, or how many it needs
-  /// [batch of pairs + 1] the first of its slots, which BodyPair::slot_start counts from
-  std::vector<std::uint32_t> slot_base_{0};
-  InLines<double> history_;
-  std::vector<ContactReport> reports_;           ///< [slot] of the last step that was observed
+  std::vector<float> ask_again_, approach_;
+  std::vector<double> stored_;  ///< [pair] J/m, if keeps_stored_
+  ContactSlots slots_;
+  std::vector<ShortOfRoom> short_of_room_;       ///< pairs of the wave that was asked about last, rising
+  std::vector<std::uint32_t> wanted_;            ///< [batch] slots, by those pairs
   std::vector<std::uint32_t> island_, touched_;  ///< see set_asleep() and touched()
   std::vector<std::uint32_t> border_;            ///< pairs of a body that sleeps with one that is awake
   std::vector<char> still_;  ///< [body] it sleeps, and nobody who is awake may touch it; empty: none does

@@ -50,8 +50,8 @@ void ContactStage::drift_on(const Model& model, const MotionState& motion) {
   take_drift(model, motion);
   workers_.over(pairs_.size(), pairs_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      ask_again_[i] = std::max(0.0, ask_again_[i] - gone.of(approach_[i]));
-      approach_[i] = drift_[pairs_[i].a].approach(drift_[pairs_[i].b]);
+      ask_again_[i] = kernels::at_most(std::max(0.0, ask_again_[i] - gone.of(approach_[i])));
+      approach_[i] = kernels::at_least(drift_[pairs_[i].a].approach(drift_[pairs_[i].b]));
     }
   });
 }

@@ -1,6 +1,14 @@
 #include "contact/contact_stage.hpp"
 
+#include <limits>
+
 namespace talus {
+namespace {
+
+/// That can be counted, with those that wait.
+constexpr std::size_t most_slots = std::numeric_limits<std::uint32_t>::max() / 4;
+
+}  // namespace
 
 void ContactStage::exchange(Archive& archive, const Model& model) {
   if (!law_) return;
@@ -10,48 +18,42 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive.of_known_size(drift_);
   archive(searches_);
   archive.of_known_size(lightest_neighbour_);
+  slots_.close_up(pairs_, batch_begin_);
   archive(pairs_);
   archive(piece_pairs_);
   archive(ask_again_);
   archive(approach_);
-  archive(damping_power_);
-  archive(history_);
-  archive(reports_);
+  slots_.exchange(archive);
   archive(island_);
-  if (!archive.reading()) return;
-  if (!fits(model)) Archive::refuse();
-  capacities_.clear();
-  std::uint32_t slot = 0;
-  for (BodyPair& pair : pairs_) {
-    pair.slot_start = slot;
-    slot += pair.slot_capacity;
-    capacities_.push_back(pair.slot_capacity);
+  if (archive.reading()) {
+    if (!fits(model)) Archive::refuse();
+    lay_out_loads(model);
   }
-  lay_out_loads(model);
-  lay_out_slots(capacities_);
-  if (!island_.empty()) hold_sleeping_pairs();
+  lay_out_slots();
+  if (archive.reading() && !island_.empty()) hold_sleeping_pairs();
 }
 
 /// Whether all indices lead into the arrays of this scene.
 bool ContactStage::fits(const Model& model) const {
-  const std::size_t pairs = pairs_.size(), slots = reports_.size();
-  if (ask_again_.size() != pairs || approach_.size() != pairs || damping_power_.size() != pairs ||
-      history_.size() != slots * history_doubles_ ||
+  const std::size_t pairs = pairs_.size();
+  if (ask_again_.size() != pairs || approach_.size() != pairs ||
       !(island_.empty() || island_.size() == model.bodies.size()))
     return false;
   for (const PiecePair& pieces : piece_pairs_) {
     if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
   }
-  std::size_t taken = 0;
+  std::size_t contacts = 0, slots = 0;
   for (const BodyPair& pair : pairs_) {
-    taken += pair.slot_capacity;
+    if (pair.slot_start != contacts) return false;
+    contacts += pair.contact_count;
+    slots += pair.slot_capacity;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
         pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
         (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1) ||
         pair.contact_count > pair.slot_capacity)
       return false;
   }
-  return taken == slots;
+  return slots_.hold(contacts) && slots <= most_slots;
 }
 
 }  // namespace talus

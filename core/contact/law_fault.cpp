@@ -26,11 +26,12 @@ struct PairSum {
 
 }  // namespace
 
-/// A pair of the wave that asks for room without end.
-LawFault ContactStage::runaway_of(const Wave& wave) const {
-  for (std::size_t i = wave.begin; i < wave.end; ++i) {
-    if (capacities_[i] <= 2 * most_contacts) continue;
-    return {fmt::format("more than {} contacts of one pair", most_contacts), true, pairs_[i].a, pairs_[i].b};
+/// A pair that asks for room without end.
+LawFault ContactStage::runaway() const {
+  for (const auto& [pair, contacts] : short_of_room_) {
+    if (contacts <= most_contacts) continue;
+    return {fmt::format("more than {} contacts of one pair", most_contacts), true, pairs_[pair].a,
+            pairs_[pair].b};
   }
   return {};
 }

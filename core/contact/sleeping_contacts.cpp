@@ -7,7 +7,7 @@ namespace talus {
 namespace {
 
 /// Of ContactStage::ask_again_: no way that bodies travel asks for this pair.
-constexpr double asleep = std::numeric_limits<double>::infinity();
+constexpr float asleep = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -35,13 +35,13 @@ void ContactStage::hold_sleeping_pairs() {
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {
       ask_again_[i] = asleep;
-      damping_power_[i] = 0;
+      if (pairs_[i].contact_count > 0) *slots_.damping_power(slot_of(i)) = 0;
       continue;
     }
     if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;
     if (island_.empty() || (island_[pairs_[i].a] == 0 && island_[pairs_[i].b] == 0)) continue;
     border_.push_back(i);
-    ask_again_[i] = std::min(ask_again_[i], 0.0);  // so that approach_ is found anew
+    ask_again_[i] = std::min(ask_again_[i], 0.0F);  // so that approach_ is found anew
     still_[pairs_[i].a] = still_[pairs_[i].b] = 0;
   }
 }

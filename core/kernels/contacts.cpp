@@ -52,9 +52,9 @@ inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, Close
   if (std::isnan(report.gap)) closed.finite = false;
   if (pair.contact_count != 0) closed.parted.add(i);
   pair.contact_count = 0;
-  books.damping_power[i] = 0;
-  books.approach[i] = books.drift[pair.a].approach(books.drift[pair.b]);
-  books.ask_again[i] = books.skin ? books.way.of(books.approach[i]) + report.gap - books.rounding : 0;
+  books.approach[i] = at_least(books.drift[pair.a].approach(books.drift[pair.b]));
+  books.ask_again[i] =
+      books.skin ? at_most(books.way.of(books.approach[i]) + report.gap - books.rounding) : 0;
 }
 
 template <bool few>
@@ -80,12 +80,16 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
       totals.deepest_a = pair.a;
       totals.deepest_b = pair.b;
     }
-    const double power = report.damping_power, product = power * books.damping_power[i];
-    if (product > 0) mean_power += std::sqrt(product);
-    books.damping_power[i] = power;
-    books.ask_again[i] = 0;
-    if (pair.contact_count == 0) closed.met.add(*at);
+    double* const former_power = books.damping_power + pair.slot_start;
+    if (pair.contact_count == 0) {
+      closed.met.add(*at);
+      *former_power = 0;
+    }
     pair.contact_count = contacts;
+    const double power = report.damping_power, product = power * *former_power;
+    if (product > 0) mean_power += std::sqrt(product);
+    *former_power = power;
+    books.ask_again[i] = 0;
     const std::size_t start = std::size_t{pair.slot_start} * books.history_doubles,
                       doubles = std::size_t{contacts} * books.history_doubles;
     if constexpr (few) {
@@ -126,7 +130,7 @@ struct SetLanes {
 };
 constexpr SetLanes set_lanes;
 
-std::uint32_t choose(const double* ask_again, const double* approach, std::uint32_t count, const Way& now,
+std::uint32_t choose(const float* ask_again, const float* approach, std::uint32_t count, const Way& now,
                      std::uint32_t* chosen) {
   std::size_t i = 0;
   std::uint32_t* next = chosen;

@@ -27,6 +27,15 @@ struct Way {
   }
 };
 
+/// Bounds need half the digits, as long as they stay bounds: less by more than rounding adds.
+inline float at_most(double value) {
+  constexpr double digits = 0x1p-23;
+  return static_cast<float>(value * (value > 0 ? 1 - digits : 1 + digits));
+}
+inline float at_least(double value) {
+  return -at_most(-value);
+}
+
 /// The velocities with which the corners of a body are taken to go on (CornerDrift), by a circle around them.
 struct Drift {
   Vec2 mean;          ///< m/s
@@ -45,9 +54,9 @@ struct Drift {
 /// What is kept of the pairs of a batch, and what a law found of them; [pair].
 struct PairBooks {
   BodyPair* pairs;
-  double* ask_again;      ///< m of way, see Way, when a law is to be asked next
-  double* approach;       ///< m/s, at which its bodies drift together at most
-  double* damping_power;  ///< J/m of the last step
+  float* ask_again;       ///< m of way, see Way, when a law is to be asked next
+  float* approach;        ///< m/s, at which its bodies drift together at most
+  double* damping_power;  ///< J/m of the last step, at the first slot of a pair in contact
   double* history;        ///< [slot * history_doubles] of the last step
   const double* found;    ///< the same, of this one
   const PairReport* reports;
@@ -76,8 +85,8 @@ struct ClosedChunk {
 struct ContactKernels {
   /// Of `count` pairs of a batch those that are due by now, rising, to `chosen`, which has room for all.
   /// Returns how many.
-  std::uint32_t (*choose)(const double* ask_again, const double* approach, std::uint32_t count,
-                          const Way& now, std::uint32_t* chosen);
+  std::uint32_t (*choose)(const float* ask_again, const float* approach, std::uint32_t count, const Way& now,
+                          std::uint32_t* chosen);
   /// What the law found of pairs of one chunk becomes what it is told of the last step, and is added to
   /// `totals`.
   void (*close)(const PairBooks& books, const std::uint32_t* active, std::size_t count, ContactTotals& totals,

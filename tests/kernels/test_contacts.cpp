@@ -19,7 +19,8 @@ constexpr double untouched = -7;
 struct SomePairs {
   std::vector<BodyPair> pairs;
   std::vector<PairReport> reports;
-  std::vector<double> ask_again, approach, damping_power, history, found;
+  std::vector<float> ask_again, approach;
+  std::vector<double> damping_power, history, found;
   std::vector<Drift> drift;  ///< [body]
   std::uint32_t doubles;
   static constexpr double rounding = 1e-3;
@@ -49,11 +50,11 @@ struct SomePairs {
       reports.push_back(report);
       ask_again.push_back(untouched);
       approach.push_back(untouched);
-      damping_power.push_back(pair.contact_count == 0 ? 0 : random());
     }
     for (std::size_t body = 0; body < 1000 + pairs.size(); ++body)
       drift.push_back({{random(), random()}, random()});
     history.assign((slot + 1) * doubles, untouched);
+    for (std::uint32_t i = 0; i <= slot; ++i) damping_power.push_back(random());  // also of who is apart
     for (std::size_t i = 0; i < history.size(); ++i) found.push_back(random());
   }
 
@@ -82,16 +83,19 @@ struct SomePairs {
       sum.stored += report.stored;
       sum.slip_loss += report.slip_loss;
       if (report.contact_count > 0) {
-        sum.damping_loss += (report.damping_power + std::sqrt(report.damping_power * damping_power[i])) / 2;
+        double& power = damping_power[pair.slot_start];
+        const double former = pair.contact_count == 0 ? 0 : power;
+        sum.damping_loss += (report.damping_power + std::sqrt(report.damping_power * former)) / 2;
+        power = report.damping_power;
         if (report.penetration > sum.penetration)
           sum.penetration = report.penetration, sum.deepest_a = pair.a, sum.deepest_b = pair.b;
         for (std::uint32_t at = 0; at < report.contact_count * doubles; ++at)
           history[pair.slot_start * doubles + at] = found[pair.slot_start * doubles + at];
       }
-      if (report.contact_count == 0) approach[i] = drift[pair.a].approach(drift[pair.b]);
-      ask_again[i] =
-          report.contact_count > 0 ? 0 : std::min(2 * approach[i] + 0.25, 3.5) + report.gap - rounding;
-      damping_power[i] = report.contact_count > 0 ? report.damping_power : 0;
+      if (report.contact_count == 0) approach[i] = at_least(drift[pair.a].approach(drift[pair.b]));
+      ask_again[i] = report.contact_count > 0
+                         ? 0
+                         : at_most(std::min(2.0 * approach[i] + 0.25, 3.5) + report.gap - rounding);
       pair.contact_count = report.contact_count;
     }
   }
@@ -199,11 +203,11 @@ TEST_CASE("the pairs that are due are chosen, and no more room is taken than for
       for (const Way& way :
            {Way{0, -1, -1}, Way{0, 0, 9}, Way{1, 0, 9}, Way{0, 2, 9}, Way{1, 2, 9}, Way{0.5, 3.5, 2}}) {
         CAPTURE(level, count, way.time, way.strayed, way.travelled);
-        std::vector<double> ask_again, approach;
+        std::vector<float> ask_again, approach;
         std::vector<std::uint32_t> due;
         for (std::uint32_t i = 0; i < count; ++i) {
-          ask_again.push_back(static_cast<double>(source() % 6) - 1);
-          approach.push_back(static_cast<double>(source() % 3));
+          ask_again.push_back(static_cast<float>(source() % 6) - 1);
+          approach.push_back(static_cast<float>(source() % 3));
           if (ask_again.back() <= std::min(approach.back() * way.time + way.strayed, way.travelled))
             due.push_back(i);
         }

@@ -61,7 +61,7 @@ struct BodyPair {
                         ///< fixed; a body of many elements counts by a patch of its boundary
   double clear_depth;   ///< m, of plain bodies: the lesser of Boundaries::clear_depth
   std::uint32_t slot_start;     ///< first contact slot of this pair
-  std::uint32_t slot_capacity;  ///< how many contacts it can hold
+  std::uint32_t slot_capacity;  ///< how many contacts it can hold; none before it first has some
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
   std::uint16_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
@@ -99,8 +99,9 @@ struct ContactBatch {
   bool hold_stick;            ///< settling: friction is held stuck, no slip limit applies
   bool bonds_form;            ///< first evaluation and settling: contacts found now are born intact
   BatchPlan* plan = nullptr;  ///< of this batch, for the law to change; or none
-  std::uint64_t layout =
-      0;  ///< while it is the same, so is all of `pairs` and `piece_pairs` but contact_count
+  /// While it is the same, so is all of `pairs` and `piece_pairs` but contact_count, and the slots of pairs
+  /// that had none.
+  std::uint64_t layout = 0;
 };
 
 /// Says of a pair of plain bodies what BodyPair repeats. Both have one piece, of at most 65,535 corners.

@@ -163,6 +163,11 @@ class LaneContact {
         if constexpr (Law::frictional) report.slip_loss = stored_before(batch, pair);
         continue;
       }
+      if (pair.slot_capacity == 0) {  // a lane is for pairs with a slot
+        loads.pairs[number] = {};
+        loads.pairs[number].contact_count = 1;
+        continue;
+      }
       add_touching(pair,
                    TouchingPair::seen(number, sieve_.start(pair, 0, lane), sieve_.start(pair, 1, lane)));
     }

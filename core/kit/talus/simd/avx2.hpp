@@ -35,6 +35,9 @@ inline Numbers numbers(const std::uint8_t* from) {
 inline Pack load(const double* from) {
   return _mm256_loadu_pd(from);
 }
+inline Pack load(const float* from) {
+  return _mm256_cvtps_pd(_mm_loadu_ps(from));
+}
 inline void store(Pack p, double* to) {
   _mm256_storeu_pd(to, p.value);
 }

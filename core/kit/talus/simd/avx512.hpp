@@ -35,6 +35,9 @@ inline Numbers numbers(const std::uint8_t* from) {
 inline Pack load(const double* from) {
   return _mm512_loadu_pd(from);
 }
+inline Pack load(const float* from) {
+  return _mm512_maskz_cvtps_pd(0xFF, _mm256_loadu_ps(from));
+}
 inline void store(Pack p, double* to) {
   _mm512_storeu_pd(to, p.value);
 }

@@ -33,6 +33,9 @@ inline Numbers numbers(const std::uint8_t* from) {
 inline Pack load(const double* from) {
   return *from;
 }
+inline Pack load(const float* from) {
+  return double{*from};
+}
 inline void store(Pack p, double* to) {
   *to = p.value;
 }
