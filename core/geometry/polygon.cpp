@@ -27,8 +27,8 @@ AreaMoments operator+(const AreaMoments& p, const AreaMoments& q) {
   return {p.area + q.area, p.x + q.x, p.y + q.y, p.xx + q.xx, p.xy + q.xy, p.yy + q.yy};
 }
 
-AreaMoments about_centroid(const AreaMoments& m) {
-  return {m.area, 0, 0, m.xx - m.x * m.x / m.area, m.xy - m.x * m.y / m.area, m.yy - m.y * m.y / m.area};
+CentralMoments about_centroid(const AreaMoments& m) {
+  return {m.area, m.xx - m.x * m.x / m.area, m.xy - m.x * m.y / m.area, m.yy - m.y * m.y / m.area};
 }
 
 namespace {

@@ -17,8 +17,11 @@ AreaMoments ring_moments(std::span<const Vec2> ring, Vec2 centre);
 
 AreaMoments operator+(const AreaMoments& p, const AreaMoments& q);
 
-/// The same region, about its own centroid.
-AreaMoments about_centroid(const AreaMoments& moments);
+/// Integrals of a region about its own centroid: ∫dA, m², ∫xx, ∫xy, ∫yy, m⁴.
+struct CentralMoments {
+  double area, xx, xy, yy;
+};
+CentralMoments about_centroid(const AreaMoments& moments);
 
 /// Smallest distance between two parallel lines that enclose the ring's convex hull: the smallest width, m.
 double smallest_width(std::span<const Vec2> ring);

@@ -14,11 +14,8 @@
 namespace talus {
 namespace {
 
-Element element_of(const LaidCover& cover, const LaidCover::LaidElement& laid, std::uint32_t body,
-                   std::uint32_t first_patch) {
+Element element_of(const LaidCover& cover, const LaidCover::LaidElement& laid, std::uint32_t first_patch) {
   Element element;
-  element.body = body;
-  element.area = laid.moments.area;
   const Vec2 a = cover.patches[laid.patches[0]], b = cover.patches[laid.patches[1]],
              c = cover.patches[laid.patches[2]];
   const double twice_area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
@@ -45,7 +42,6 @@ void make_regular(Element& element, int sign, const RegularLattice& lattice) {
     };
     gradient = *std::min_element(all.begin(), all.end(), [&](Vec2 p, Vec2 q) { return off(p) < off(q); });
   }
-  element.area = lattice.area;
 }
 
 /// Side of an equilateral triangle as large as that of the star points, m.
@@ -56,9 +52,10 @@ double size_of(const Element& element) {
 }
 
 /// Row sums of the consistent mass (Eq. 17): ρ∫w_i, exact on the cut region.
-void add_mass(Model& model, const Element& element, const LaidCover::LaidElement& laid, double density) {
+void add_mass(Model& model, const Element& element, const LaidCover::LaidElement& laid, double area,
+              double density) {
   if (laid.lattice != 0) {
-    for (const std::uint32_t patch : element.patch) model.patch_mass[patch] += density * element.area / 3;
+    for (const std::uint32_t patch : element.patch) model.patch_mass[patch] += density * area / 3;
     return;
   }
   const AreaMoments& region = laid.moments;
@@ -176,8 +173,9 @@ std::vector<std::uint32_t> carrying(const LaidCover& cover, const std::vector<Ve
   return result;
 }
 
-/// The triangles of any shape of a body, as its subdomains go through them.
-void fill_triangles(Model& model, const Body& body, const std::vector<Element>& elements) {
+/// The triangles of any shape of a body, as its subdomains go through them. `areas`: [element] m².
+void fill_triangles(Model& model, const Body& body, const std::vector<Element>& elements,
+                    const double* areas) {
   Partition& partition = model.partition;
   for (auto& component : partition.gradient) component.resize(partition.corner.size());
   for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
@@ -187,11 +185,11 @@ void fill_triangles(Model& model, const Body& body, const std::vector<Element>& 
       std::uint32_t next = chunk.element;
       for (std::uint32_t i = chunk.link; i < chunk.link + chunk.links; ++i) {
         if (partition.area[i] == 0) continue;
-        const Element& element = elements[next++];
+        const Element& element = elements[next];
         const std::array<double, 4> gradient{element.gradient[1].x, element.gradient[1].y,
                                              element.gradient[2].x, element.gradient[2].y};
         for (std::size_t k = 0; k < 4; ++k) partition.gradient[k][i] = gradient[k];
-        partition.area[i] = element.area;
+        partition.area[i] = areas[next++];
       }
     }
     for (std::uint32_t r = subdomain.run_begin; r < subdomain.run_end; ++r) {
@@ -240,18 +238,23 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   std::vector<Element> elements;
   double size = 0;
   elements.reserve(cover.elements.size());
+  const std::size_t first = model.element_body.size();
+  model.elements.resize(first);  // affine blocks before have none
+  model.element_region.resize(first);
   for (LaidCover::LaidElement& laid : cover.elements) {
-    elements.push_back(element_of(cover, laid, index, body.patch_begin));
+    elements.push_back(element_of(cover, laid, body.patch_begin));
     if (laid.lattice != 0) make_regular(elements.back(), laid.lattice, lattice);
-    add_mass(model, elements.back(), laid, density);
+    const double area = laid.lattice != 0 ? lattice.area : laid.moments.area;
+    add_mass(model, elements.back(), laid, area, density);
     size += size_of(elements.back());
+    model.element_body.push_back(index);
+    model.element_area.push_back(area);
     model.elements.push_back(elements.back());
-    model.element_region.resize(model.elements.size() - 1);  // affine blocks before have none
     model.element_region.push_back(std::move(laid.region));
   }
   steady_patches(model, body, cover, density);
   check_masses(model, body, scene_body);
-  fill_triangles(model, body, elements);
+  fill_triangles(model, body, elements, model.element_area.data() + first);
   list_slots(model.partition, body);
   add_sides(model, scene_body, index, cover, elements);
   body.width = std::min(body.width, size / static_cast<double>(elements.size()));

@@ -89,7 +89,7 @@ struct GivenShape {
       corners.insert(corners.end(), triangle.begin(), triangle.end());
     shape = {
         {x.data(), y.data(), ring_start.data(), static_cast<std::uint32_t>(ring_start.size() - 1)},
-        body.moments,
+        {body.moments.area, 0, 0, body.moments.xx, body.moments.xy, body.moments.yy},
         {line_x.data(), line_y.data(), line_start.data(), static_cast<std::uint32_t>(line_start.size() - 1)},
         {node_x.data(), node_y.data(), reinterpret_cast<const std::uint32_t(*)[3]>(corners.data()),
          static_cast<std::uint32_t>(node_x.size()), static_cast<std::uint32_t>(corners.size() / 3)}};

@@ -23,11 +23,8 @@ AreaMoments moments_about(const SceneBody& body, Vec2 centre) {
 }
 
 void set_mass(Body& body, double density) {
-  const AreaMoments& m = body.moments;
-  body.mass = body.contact_mass = density * m.area;
-  body.inertia = density * (m.xx + m.yy);
-  const double determinant = density * (m.xx * m.yy - m.xy * m.xy);
-  body.inverse_moment = {m.yy / determinant, -m.xy / determinant, -m.xy / determinant, m.xx / determinant};
+  body.density = density;
+  body.mass = body.contact_mass = density * body.moments.area;
 }
 
 std::vector<ConvexPiece> pieces_of(const SceneBody& body) {
@@ -55,10 +52,8 @@ void add_pieces(Model& model, const SceneBody& scene_body, const Body& body, std
 }
 
 void add_element_of_block(Model& model, std::uint32_t index) {
-  Element element;
-  element.body = index;
-  element.area = model.bodies[index].moments.area;
-  model.elements.push_back(element);  // its region, of none, is added where there are others
+  model.element_body.push_back(index);
+  model.element_area.push_back(model.bodies[index].moments.area);
 }
 
 /// Where point loads act on a body in any stage, relative to its centroid.
@@ -131,13 +126,14 @@ void make_room(Model& model, const Scene& scene) {
   model.piece_start.reserve(pieces + 1);
   model.is_strip.reserve(pieces);
   model.piece_strip.reserve(pieces);
-  model.elements.reserve(pieces);
+  model.element_body.reserve(pieces);
+  model.element_area.reserve(pieces);
 }
 
 /// One batch per material needs the elements side by side.
 void sort_elements(Model& model, const Scene& scene) {
-  const auto material = [&](std::uint32_t e) { return scene.bodies[model.elements[e].body].material; };
-  std::vector<std::uint32_t> order(model.elements.size());
+  const auto material = [&](std::uint32_t e) { return scene.bodies[model.element_body[e]].material; };
+  std::vector<std::uint32_t> order(model.element_body.size());
   std::iota(order.begin(), order.end(), 0);
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); };
   const bool sorted = std::is_sorted(order.begin(), order.end(), before);
@@ -153,10 +149,13 @@ void sort_elements(Model& model, const Scene& scene) {
   std::uint32_t entry = 0;
   for (std::uint32_t body = 0; body < model.bodies.size(); ++body) {
     model.bodies[body].element_begin = entry;
-    while (entry < order.size() && model.elements[entry].body == body) ++entry;
+    while (entry < order.size() && model.element_body[entry] == body) ++entry;
     model.bodies[body].element_end = entry;
   }
-  if (!model.element_region.empty()) model.element_region.resize(order.size());
+  if (!model.elements.empty()) {  // after the last, affine blocks have none
+    model.elements.resize(order.size());
+    model.element_region.resize(order.size());
+  }
   if (sorted) return;
   const auto reorder = [&](auto& of_elements) {
     if (of_elements.empty()) return;
@@ -165,6 +164,8 @@ void sort_elements(Model& model, const Scene& scene) {
     of_elements.reserve(order.size());
     for (const std::uint32_t e : order) of_elements.push_back(std::move(listed[e]));
   };
+  reorder(model.element_body);
+  reorder(model.element_area);
   reorder(model.elements);
   reorder(model.element_region);
 }
@@ -183,6 +184,12 @@ void measure_widths(Model& model) {
 }
 
 }  // namespace
+
+Matrix2 Body::inverse_moment() const {
+  const double determinant = density * (moments.xx * moments.yy - moments.xy * moments.xy);
+  return {moments.yy / determinant, -moments.xy / determinant, -moments.xy / determinant,
+          moments.xx / determinant};
+}
 
 std::uint32_t Model::element_at(std::uint32_t body, Vec2 reference) const {
   std::uint32_t best = 0;
@@ -254,7 +261,8 @@ Model build_model(const Scene& scene, std::span<const std::uint32_t> given) {
   const auto fit = [](auto&... grown) { (grown.shrink_to_fit(), ...); };
   fit(model.reference_x, model.reference_y, model.surface, model.cut, model.piece_start, model.piece_body,
       model.is_strip, model.piece_strip, model.strips, model.competitors, model.sides, model.next_side,
-      model.previous_side, model.side_size, model.elements, model.element_region);
+      model.previous_side, model.side_size, model.element_body, model.element_area, model.elements,
+      model.element_region);
   return model;
 }
 

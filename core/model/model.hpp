@@ -41,12 +41,10 @@ struct BoundarySide {
   std::uint32_t surface;  ///< index into Scene::surfaces
 };
 
-/// Three patches and the gradients of their weights; in an affine block the body itself (no_patch).
+/// Three patches and the gradients of their weights; of an affine block, which is its own element, no_patch.
 struct Element {
-  std::uint32_t body = 0;
   std::array<std::uint32_t, 3> patch{no_patch, no_patch, no_patch};
   std::array<Vec2, 3> gradient{};  ///< 1/m
-  double area = 0;                 ///< m²
 };
 
 /// A patch that follows the affine continuation of three others (CoverSink::steady_patch).
@@ -69,9 +67,8 @@ struct Body {
   bool meets_itself = false;  ///< whether parts of its boundary may touch each other
   Vec2 centre;                ///< m, centroid at the start, without the scene's origin
   double mass = 0;            ///< kg per metre of thickness
-  AreaMoments moments{};      ///< about the centroid
-  double inertia = 0;         ///< kg m, about the centroid (rigid)
-  Matrix2 inverse_moment;     ///< (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17)
+  double density = 0;         ///< kg/m³
+  CentralMoments moments{};
   double strain_mass_scale = 1;  ///< see StrainMass (affine)
   double width = 0;         ///< m, smallest; of many elements: the smaller of that and their typical size
   double contact_mass = 0;  ///< kg per metre: that of the body, or of a patch of the boundary
@@ -89,6 +86,11 @@ struct Body {
   std::uint32_t common_index = 0;  ///< of patch own_end in Partition::common_start
   std::uint32_t subdomain_begin = 0, subdomain_end = 0;  ///< its subdomains
   std::uint32_t lattice = 0;                             ///< entry of Partition::lattices
+
+  /// kg m, about the centroid (rigid).
+  double inertia() const { return density * (moments.xx + moments.yy); }
+  /// (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17).
+  Matrix2 inverse_moment() const;
 };
 
 /// The bodies of a scene as arrays.
@@ -127,10 +129,12 @@ struct Model {
   Partition partition;
 
   // Elements of the bodies that deform, sorted by material.
-  std::vector<Element> elements;
+  std::vector<std::uint32_t> element_body;            ///< [element]
+  std::vector<double> element_area;                   ///< [element] m²
   std::vector<std::uint32_t> material_element_start;  ///< [material + 1]
   std::vector<std::uint32_t> body_element;            ///< elements body after body, as the cover made them
-  // Both empty where no body is covered.
+  // All empty where no body is covered.
+  std::vector<Element> elements;
   std::vector<std::array<double, 4>> element_box;  ///< [element] m, least x and y, greatest x and y
   std::vector<std::vector<Ring>> element_region;   ///< [element] rings, m, X; empty for an affine block
 
@@ -144,7 +148,7 @@ struct Model {
     return body.piece_end == body.piece_begin + 1 && is_strip[body.piece_begin] == 0;
   }
 
-  /// The first of a body's elements in `elements`, where those of a covered body lie side by side.
+  /// The first of a body's elements, where those of a covered body lie side by side.
   std::uint32_t first_element(const Body& body) const { return body_element[body.element_begin]; }
 
   /// A point of a body by its reference position; of a body of many elements, in the element it lies in or,

@@ -119,10 +119,10 @@ void MotionState::average(const Model& model, std::uint32_t index) {
     sum.yy += share * h.yy;
   };
   for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
-    const Element& element = model.elements[model.body_element[i]];
-    const double share = element.area / body.moments.area;
-    add(mean.h, share, gradient(element, patch_displacement));
-    add(mean.rate, share, gradient(element, patch_velocity));
+    const std::uint32_t element = model.body_element[i];
+    const double share = model.element_area[element] / body.moments.area;
+    add(mean.h, share, gradient(model.elements[element], patch_displacement));
+    add(mean.rate, share, gradient(model.elements[element], patch_velocity));
   }
   bodies[index] = mean;
 }

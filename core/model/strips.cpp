@@ -208,9 +208,8 @@ void join_coincident(Corners& corners, std::size_t count, double depth) {
 void add_strips(Model& model, std::uint32_t index) {
   Body& body = model.bodies[index];
   Fragments fragments(body);
-  for (auto element = model.elements.rbegin(); element != model.elements.rend() && element->body == index;
-       ++element)
-    fragments.add(*element);
+  for (std::size_t e = model.elements.size(); e > 0 && model.element_body[e - 1] == index; --e)
+    fragments.add(model.elements[e - 1]);
   std::vector<std::size_t> fragment;
   for (std::uint32_t side = body.side_begin; side < body.side_end; ++side)
     fragment.push_back(fragments.of(model.sides[side].start.carrier.patch[0]));

@@ -55,13 +55,14 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool bound
     if (whole) {
       const double density = body.mass / body.moments.area;
       block.mass = body.mass;
-      block.inertia = body.inertia;
+      block.inertia = body.inertia();
       block.moment_xx = density * body.moments.xx;
       block.moment_xy = density * body.moments.xy;
       block.moment_yy = density * body.moments.yy;
-      block.inverse_xx = body.inverse_moment.xx;
-      block.inverse_xy = body.inverse_moment.xy;
-      block.inverse_yy = body.inverse_moment.yy;
+      const Matrix2 inverse = body.inverse_moment();
+      block.inverse_xx = inverse.xx;
+      block.inverse_xy = inverse.xy;
+      block.inverse_yy = inverse.yy;
       block.rigid = body.kinematics == Kinematics::rigid;
       if (body.strain_mass_scale != 1) with_scaled_strain_.push_back(i);
       if (body.piece_end == body.piece_begin + 1) block.corner_count = body.corner_end - body.corner_begin;

@@ -47,10 +47,10 @@ void Simulation::State::check_shapes() const {
   for (const std::uint32_t body : model.moving_bodies) {
     if (!model.covered(body) && inverted(motion.bodies[body].h)) refuse(body, "its area became negative");
   }
-  if (model.covered_bodies.empty()) return;
-  for (const Element& element : model.elements) {
-    if (model.covered(element.body) && inverted(gradient(element, motion.patch_displacement)))
-      refuse(element.body, "the area of an element became negative");
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const std::uint32_t body = model.element_body[e];
+    if (model.covered(body) && inverted(gradient(model.elements[e], motion.patch_displacement)))
+      refuse(body, "the area of an element became negative");
   }
 }
 

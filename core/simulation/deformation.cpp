@@ -52,8 +52,8 @@ void Deformation::lay_out_blocks(const Model& model, std::span<const std::uint32
   for (std::uint32_t batch = 0; batch < materials_.count(); ++batch) {
     bool open = false;
     for (std::uint32_t e = materials_.begin(batch); e < materials_.end(batch); ++e) {
-      const Element& element = model.elements[e];
-      const bool block = element.patch[0] == no_patch && (asleep.empty() || asleep[element.body] == 0);
+      const std::uint32_t body = model.element_body[e];
+      const bool block = !model.covered(body) && (asleep.empty() || asleep[body] == 0);
       if (block && (!open || blocks_.back().count == ElementBuffer::most)) blocks_.push_back({batch, e, 0});
       if (block) ++blocks_.back().count;
       open = block;
@@ -152,7 +152,7 @@ Deformation::Energy Deformation::apply_to_blocks(const Model& model, double dt, 
 Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& blocks, double dt, bool keep,
                                           ElementBuffer& buffer, MotionState& motion) {
   for (std::uint32_t i = 0; i < blocks.count; ++i) {
-    const Matrix2& h = motion.bodies[model.elements[blocks.element + i].body].h;
+    const Matrix2& h = motion.bodies[model.element_body[blocks.element + i]].h;
     buffer.deformation[0][i] = 1 + h.xx;
     buffer.deformation[1][i] = h.xy;
     buffer.deformation[2][i] = h.yx;
@@ -161,12 +161,11 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
   materials_.evaluate(blocks.batch, blocks.element, blocks.count, dt, keep, buffer);
   Energy sum;
   for (std::uint32_t i = 0; i < blocks.count; ++i) {
-    const Element& element = model.elements[blocks.element + i];
-    const double area = element.area;
+    const double area = model.element_area[blocks.element + i];
     sum.stored += area * buffer.energy[i];
     if (!energies_.empty()) energies_[blocks.element + i] = area * buffer.energy[i];
     sum.dissipated += area * buffer.dissipated[i];
-    Matrix2& moment = motion.forces[element.body].moment;
+    Matrix2& moment = motion.forces[model.element_body[blocks.element + i]].moment;
     moment.xx -= area * buffer.stress[0][i];
     moment.xy -= area * buffer.stress[1][i];
     moment.yx -= area * buffer.stress[2][i];
@@ -182,7 +181,7 @@ std::array<double, 3> Deformation::cauchy(const Model& model, std::size_t body) 
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
     const std::uint32_t e = model.body_element[i];
     const std::array<double, 3> stress = cauchy_of_element(e);
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += model.elements[e].area / b.moments.area * stress[k];
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += model.element_area[e] / b.moments.area * stress[k];
   }
   return sum;
 }

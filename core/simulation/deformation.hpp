@@ -38,7 +38,7 @@ class Deformation {
   /// [body] whether it stands and needs no forces, not 0; empty: none.
   void set_asleep(const Model& model, std::span<const std::uint32_t> asleep);
   /// From now on what each block stores is kept.
-  void keep_energies(const Model& model) { energies_.resize(model.elements.size()); }
+  void keep_energies(const Model& model) { energies_.resize(model.element_body.size()); }
   /// J/m, in a body that moves as a whole, where energies are kept.
   double stored_in(const Model& model, std::uint32_t body) const;
 

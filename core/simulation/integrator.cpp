@@ -8,7 +8,7 @@ namespace talus {
 namespace {
 
 /// tr(P ρJ Qᵀ): the deformation part of the mass as an inner product of two rates.
-double product(const AreaMoments& m, double density, const Matrix2& p, const Matrix2& q) {
+double product(const CentralMoments& m, double density, const Matrix2& p, const Matrix2& q) {
   const double first = p.xx * (m.xx * q.xx + m.xy * q.xy) + p.xy * (m.xy * q.xx + m.yy * q.xy);
   const double second = p.yx * (m.xx * q.yx + m.xy * q.yy) + p.yy * (m.xy * q.yx + m.yy * q.yy);
   return density * (first + second);
@@ -33,10 +33,10 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
   motion.velocity.y =
       update.keep * motion.velocity.y + update.gain * (force.force.y / body.mass + conditions.gravity.y);
   if (body.kinematics == Kinematics::rigid) {
-    motion.spin = update.keep * motion.spin + update.gain * torque(motion, force) / body.inertia;
+    motion.spin = update.keep * motion.spin + update.gain * torque(motion, force) / body.inertia();
     return;
   }
-  const Matrix2 &q = force.moment, &inverse = body.inverse_moment;
+  const Matrix2 &q = force.moment, inverse = body.inverse_moment();
   const double xx = q.xx * inverse.xx + q.xy * inverse.yx, xy = q.xx * inverse.xy + q.xy * inverse.yy;
   const double yx = q.yx * inverse.xx + q.yy * inverse.yx, yy = q.yx * inverse.xy + q.yy * inverse.yy;
   Matrix2 acceleration{xx, xy, yx, yy};
@@ -61,7 +61,7 @@ void impose_supports(const Body& body, double density, const Support& support,
   if (support.y) after.velocity.y = impose(support.y, body.mass, after.velocity.y, before.velocity.y);
   if (!support.rotation) return;
   if (body.kinematics == Kinematics::rigid) {
-    after.spin = impose(support.rotation, body.inertia, after.spin, before.spin);
+    after.spin = impose(support.rotation, body.inertia(), after.spin, before.spin);
     return;
   }
   const Matrix2 spin = unit_spin(after.h);
@@ -137,7 +137,7 @@ void accelerate_whole(const Body& body, const BodyForce& force, const Support& s
 double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q) {
   const double translation = body.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
   const auto rest = [&] {
-    if (body.kinematics == Kinematics::rigid) return body.inertia * p.spin * q.spin;
+    if (body.kinematics == Kinematics::rigid) return body.inertia() * p.spin * q.spin;
     if (body.strain_mass_scale != 1) return StrainMass(body, density, q.h).product(p.rate, q.rate);
     return product(body.moments, density, p.rate, q.rate);
   };
@@ -170,7 +170,7 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
 }
 
 Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment) {
-  const AreaMoments& m = body.moments;
+  const CentralMoments& m = body.moments;
   const double density = body.mass / m.area;
   const Matrix2 spin = unit_spin(h);
   // The reaction is that of a spin, λ W F ρJ, with the work of the moments on a unit of spin.

@@ -28,14 +28,21 @@ void refuse_unsound(const Material& material, const RegisteredComponent& compone
     refuse("its viscous time", viscous_time, "a finite number from 0 on");
 }
 
+/// σ = P Fᵀ / det F.
+std::array<double, 3> cauchy_of(const ElementBuffer& buffer, std::uint32_t i) {
+  const auto& [xx, xy, yx, yy] = buffer.deformation;
+  const double fxx = xx[i], fxy = xy[i], fyx = yx[i], fyy = yy[i];
+  const double pxx = buffer.stress[0][i], pxy = buffer.stress[1][i], pyx = buffer.stress[2][i],
+               pyy = buffer.stress[3][i];
+  const double volume = fxx * fyy - fxy * fyx;
+  const double shear = (pxx * fyx + pxy * fyy + pyx * fxx + pyy * fxy) / 2;
+  return {(pxx * fxx + pxy * fxy) / volume, (pyx * fyx + pyy * fyy) / volume, shear / volume};
+}
+
 }  // namespace
 
-MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
-  const std::size_t count = model.elements.size();
-  for (int k = 0; k < 4; ++k) {
-    deformation_[k].assign(count, k == 0 || k == 3 ? 1.0 : 0.0);
-    stress_[k].assign(count, 0.0);
-  }
+MaterialBatches::MaterialBatches(const Scene& scene, const Model& model)
+    : cauchy_(model.element_body.size(), std::array<double, 3>{}) {
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const std::uint32_t begin = model.material_element_start[m], end = model.material_element_start[m + 1];
     if (begin == end) continue;
@@ -46,8 +53,10 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     const bool needs_previous = material->needs_previous_deformation();
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
-    batches_.push_back(
-        {std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states)});
+    Batch& batch = batches_.emplace_back(
+        Batch{std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states), {}});
+    for (int k = 0; k < 4 && needs_previous; ++k)
+      batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
   }
 }
 
@@ -60,8 +69,8 @@ std::uint32_t MaterialBatches::batch_of(std::uint32_t element) const {
 void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::uint32_t count, double dt,
                                bool keep, ElementBuffer& buffer) {
   Batch& batch = batches_[index];
-  const std::size_t doubles = batch.material->doubles_per_element();
-  double* state = batch.state.data() + doubles * (element - batch.begin);
+  const std::size_t doubles = batch.material->doubles_per_element(), first = element - batch.begin;
+  double* state = batch.state.data() + doubles * first;
   if (buffer.state.size() < doubles * ElementBuffer::most) buffer.state.resize(doubles * ElementBuffer::most);
 #ifdef TALUS_AUDIT
   for (auto& component : buffer.stress)
@@ -72,7 +81,7 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   for (int k = 0; k < 4; ++k) {
     input.deformation[k] = buffer.deformation[k];
     input.previous_deformation[k] =
-        batch.needs_previous ? deformation_[k].data() + element : buffer.deformation[k];
+        batch.needs_previous ? batch.deformation[k].data() + first : buffer.deformation[k];
     output.stress[k] = buffer.stress[k];
   }
   input.state = state;
@@ -83,36 +92,24 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   output.state = buffer.state.data();
   batch.material->evaluate(input, output);
   std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
-  for (int k = 0; k < 4; ++k) {
-    if (keep || batch.needs_previous)
-      std::copy(buffer.deformation[k], buffer.deformation[k] + count, deformation_[k].data() + element);
-    if (keep) std::copy(buffer.stress[k], buffer.stress[k] + count, stress_[k].data() + element);
-  }
-}
-
-/// σ = P Fᵀ / det F.
-std::array<double, 3> MaterialBatches::cauchy(std::size_t e) const {
-  const double fxx = deformation_[0][e], fxy = deformation_[1][e], fyx = deformation_[2][e],
-               fyy = deformation_[3][e];
-  const double pxx = stress_[0][e], pxy = stress_[1][e], pyx = stress_[2][e], pyy = stress_[3][e];
-  const double volume = fxx * fyy - fxy * fyx;
-  const double xy = (pxx * fyx + pxy * fyy + pyx * fxx + pyy * fxy) / 2;
-  return {(pxx * fxx + pxy * fxy) / volume, (pyx * fyx + pyy * fyy) / volume, xy / volume};
+  for (int k = 0; k < 4 && batch.needs_previous; ++k)
+    std::copy(buffer.deformation[k], buffer.deformation[k] + count, batch.deformation[k].data() + first);
+  for (std::uint32_t i = 0; i < count && keep; ++i) cauchy_[element + i] = cauchy_of(buffer, i);
 }
 
 void MaterialBatches::exchange(Archive& archive) {
-  for (Batch& batch : batches_) archive.of_known_size(batch.state);
-  for (std::vector<double>& component : deformation_) archive.of_known_size(component);
-  for (std::vector<double>& component : stress_) archive.of_known_size(component);
+  for (Batch& batch : batches_) {
+    archive.of_known_size(batch.state);
+    for (std::vector<double>& component : batch.deformation) archive.of_known_size(component);
+  }
+  archive.of_known_size(cauchy_);
 }
 
 std::vector<double> MaterialBatches::memory() const {
   std::vector<double> all;
   for (const Batch& batch : batches_) {
-    for (const std::vector<double>& component : deformation_) {
-      if (batch.needs_previous)
-        all.insert(all.end(), component.begin() + batch.begin, component.begin() + batch.end);
-    }
+    for (const std::vector<double>& component : batch.deformation)
+      all.insert(all.end(), component.begin(), component.end());
     all.insert(all.end(), batch.state.begin(), batch.state.end());
   }
   return all;
@@ -125,9 +122,7 @@ void MaterialBatches::set_memory(const std::vector<double>& memory) {
     from += count;
   };
   for (Batch& batch : batches_) {
-    for (std::vector<double>& component : deformation_) {
-      if (batch.needs_previous) take(component.data() + batch.begin, batch.end - batch.begin);
-    }
+    for (std::vector<double>& component : batch.deformation) take(component.data(), component.size());
     take(batch.state.data(), batch.state.size());
   }
 }

@@ -22,7 +22,7 @@ struct ElementBuffer {
 };
 
 /// The materials of the elements that deform, and what is kept of each element from step to step: the states
-/// of its material, the deformation where its material asks for it, deformation and stress for output.
+/// of its material, the deformation where its material asks for it, and stress for output.
 class MaterialBatches {
  public:
   MaterialBatches(const Scene& scene, const Model& model);
@@ -43,7 +43,7 @@ class MaterialBatches {
                 ElementBuffer& buffer);
 
   /// Cauchy stress xx, yy, xy, Pa, when the element was last kept.
-  std::array<double, 3> cauchy(std::size_t element) const;
+  const std::array<double, 3>& cauchy(std::size_t element) const { return cauchy_[element]; }
 
   void exchange(Archive& archive);
 
@@ -57,10 +57,11 @@ class MaterialBatches {
     bool needs_previous;
     const Material* sweeping;
     std::vector<double> state;
+    std::vector<double> deformation[4];  ///< of t_n, if needs_previous
   };
 
   std::vector<Batch> batches_;
-  std::vector<double> deformation_[4], stress_[4];
+  std::vector<std::array<double, 3>> cauchy_;  ///< [element] as cauchy() says it
 };
 
 }  // namespace talus

@@ -25,13 +25,14 @@ struct Tangent {
 void add_elastic(const Model& model, const Body& body, const Tangent& tangent, double factor,
                  const Field& from, Field& to) {
   for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
-    const Element& element = model.elements[model.body_element[i]];
+    const std::uint32_t number = model.body_element[i];
+    const Element& element = model.elements[number];
     const Matrix2 h = gradient(element, from);
     const std::array<double, 3> strain{h.xx, h.yy, h.xy + h.yx};
     std::array<double, 3> stress{};
     for (std::size_t r = 0; r < 3; ++r) {
       for (std::size_t c = 0; c < 3; ++c)
-        stress[r] += factor * element.area * tangent.d[3 * r + c] * strain[c];
+        stress[r] += factor * model.element_area[number] * tangent.d[3 * r + c] * strain[c];
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 g = element.gradient[k];

@@ -344,7 +344,7 @@ std::size_t Simulation::patch_count() const {
 }
 
 std::size_t Simulation::element_count() const {
-  return state_->model.elements.size();
+  return state_->model.element_body.size();
 }
 
 std::size_t Simulation::pair_count() const {

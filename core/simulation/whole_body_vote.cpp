@@ -25,7 +25,7 @@ Shape shape_at(Kinematics kinematics, Vec2 p) {
 
 Eigen::MatrixXd mass_matrix(const Body& body, double density) {
   if (body.kinematics == Kinematics::rigid) {
-    return Eigen::Vector3d(body.mass, body.mass, body.inertia).asDiagonal();
+    return Eigen::Vector3d(body.mass, body.mass, body.inertia()).asDiagonal();
   }
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(6, 6);
   mass(0, 0) = mass(1, 1) = body.mass;

@@ -55,7 +55,7 @@ MassMatrices mass_matrices(const Scene& scene) {
       b(0, 2 * i) = b(2, 2 * i + 1) = g.x;
       b(1, 2 * i + 1) = b(2, 2 * i) = g.y;
     }
-    const Eigen::Matrix<double, 6, 6> stiffness = element.area * b.transpose() * d * b;
+    const Eigen::Matrix<double, 6, 6> stiffness = model.element_area[e] * b.transpose() * d * b;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         const auto p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);

@@ -70,7 +70,7 @@ struct Drawn {
   explicit Drawn(Ring ring) {
     const AreaMoments m = ring_moments(ring, {0, 0});
     for (Vec2& p : ring) p = {p.x - m.x / m.area, p.y - m.y / m.area};
-    moments = about_centroid(ring_moments(ring, {0, 0}));
+    moments = ring_moments(ring, {0, 0});
     for (const Vec2 p : ring) x.push_back(p.x), y.push_back(p.y);
     loop_start = {0, static_cast<std::uint32_t>(ring.size())};
   }

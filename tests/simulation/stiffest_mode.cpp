@@ -46,12 +46,12 @@ class Oscillator {
                      (f0.force.y - f.force.y) / (scale * body.mass)};
       if (body.kinematics == Kinematics::rigid) {
         const double turning = torque({}, f0) - torque({}, f);
-        result[i].h.xx = turning / (scale * body.inertia);
+        result[i].h.xx = turning / (scale * body.inertia());
         continue;
       }
       const Matrix2 q{f0.moment.xx - f.moment.xx, f0.moment.xy - f.moment.xy, f0.moment.yx - f.moment.yx,
                       f0.moment.yy - f.moment.yy};
-      const Matrix2& inverse = body.inverse_moment;
+      const Matrix2 inverse = body.inverse_moment();
       result[i].h = {
           (q.xx * inverse.xx + q.xy * inverse.yx) / scale, (q.xx * inverse.xy + q.xy * inverse.yy) / scale,
           (q.yx * inverse.xx + q.yy * inverse.yx) / scale, (q.yx * inverse.xy + q.yy * inverse.yy) / scale};

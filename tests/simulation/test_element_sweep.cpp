@@ -62,7 +62,9 @@ std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const Mot
   const Choice& choice = scene.materials[0].model;
   const auto material = make<Material>(*choice.component, choice.values);
   std::vector<Vec2> forces(motion.patch_force.size());
-  for (const Element& element : model.elements) {
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const Element& element = model.elements[e];
+    const double area = model.element_area[e];
     const Matrix2 h = gradient(element, motion.patch_displacement);
     const double f[4] = {1 + h.xx, h.xy, h.yx, 1 + h.yy}, before[4] = {1, 0, 0, 1};
     double p[4], energy = 0, dissipated = 0;
@@ -70,11 +72,11 @@ std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const Mot
     MaterialBatch batch{
         {f, f + 1, f + 2, f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
     material->evaluate(batch, {{p, p + 1, p + 2, p + 3}, &energy, &dissipated, next.data()});
-    stored += element.area * energy;
+    stored += area * energy;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 g = element.gradient[i];
-      forces[element.patch[i]].x -= element.area * (p[0] * g.x + p[1] * g.y);
-      forces[element.patch[i]].y -= element.area * (p[2] * g.x + p[3] * g.y);
+      forces[element.patch[i]].x -= area * (p[0] * g.x + p[1] * g.y);
+      forces[element.patch[i]].y -= area * (p[2] * g.x + p[3] * g.y);
     }
   }
   return forces;
