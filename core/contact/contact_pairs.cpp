@@ -32,14 +32,14 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   }
   if (due) {
     search_.find(model, motion, near_, candidates_);
-    keep_touching();
+    keep_touching(model);
     note_neighbours(model);
     slack_ = near_ / 2;
     take_drift(model, motion);
   }
   if (every_step) {
     search_.find(model, motion, sight * model.mean_width, candidates_);
-    keep_touching();
+    keep_touching(model);
   }
   rebuild_pairs(model);
   ++searches_;
@@ -48,9 +48,9 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
 
 /// A bond may span any gap: two bodies in contact stay a pair, however far apart they are. As long as pieces
 /// of them are near, those are their contact.
-void ContactStage::keep_touching() {
-  const auto bodies_of = [](const Candidate& candidate) {
-    return std::pair{candidate.body_a, candidate.body_b};
+void ContactStage::keep_touching(const Model& model) {
+  const auto bodies_of = [&](const Candidate& candidate) {
+    return std::pair{model.piece_body[candidate.piece_a], model.piece_body[candidate.piece_b]};
   };
   const std::size_t found = candidates_.size();
   std::size_t k = 0;
@@ -60,16 +60,17 @@ void ContactStage::keep_touching() {
     while (k < found && bodies_of(candidates_[k]) < wanted) ++k;
     if (k < found && bodies_of(candidates_[k]) == wanted) continue;
     for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p)
-      append_to(candidates_, {pair.a, pair.b, piece_pairs_[p].a, piece_pairs_[p].b});
+      append_to(candidates_, {piece_pairs_[p].a, piece_pairs_[p].b});
   }
   const auto first = candidates_.begin();
-  std::inplace_merge(first, first + static_cast<std::ptrdiff_t>(found), candidates_.end());
+  std::inplace_merge(first, first + static_cast<std::ptrdiff_t>(found), candidates_.end(),
+                     CandidateOrder(model));
 }
 
 void ContactStage::note_neighbours(const Model& model) {
   lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
   for (const Candidate& candidate : candidates_) {
-    const std::uint32_t a = candidate.body_a, b = candidate.body_b;
+    const std::uint32_t a = model.piece_body[candidate.piece_a], b = model.piece_body[candidate.piece_b];
     if (fixed_[a] != 0 || fixed_[b] != 0) continue;
     lightest_neighbour_[a] = std::min(lightest_neighbour_[a], model.bodies[b].contact_mass);
     lightest_neighbour_[b] = std::min(lightest_neighbour_[b], model.bodies[a].contact_mass);
@@ -88,32 +89,32 @@ void ContactStage::rebuild_pairs(const Model& model) {
   pairs_.clear();
   piece_pairs_.clear();
   steps_shared_ = 0;
-  const auto same_bodies = [](const Candidate& p, const Candidate& q) {
-    return p.body_a == q.body_a && p.body_b == q.body_b;
+  const auto same_bodies = [&](const Candidate& p, const Candidate& q) {
+    return model.piece_body[p.piece_a] == model.piece_body[q.piece_a] &&
+           model.piece_body[p.piece_b] == model.piece_body[q.piece_b];
   };
   std::size_t repeated = 0;
   for (std::size_t i = 1; i < candidates_.size(); ++i)
     repeated += same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
   make_room_in(pairs_, candidates_.size() - repeated);
   make_room_in(piece_pairs_, candidates_.size());
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const Candidate& candidate = candidates_[i];
-    if (pairs_.empty() || pairs_.back().a != candidate.body_a || pairs_.back().b != candidate.body_b) {
-      const Body &a = model.bodies[candidate.body_a], &b = model.bodies[candidate.body_b];
-      const double reduced_mass = fixed_[candidate.body_a] ? b.contact_mass
-                                  : fixed_[candidate.body_b]
+  for (const auto& [piece_a, piece_b] : candidates_) {
+    const std::uint32_t of_a = model.piece_body[piece_a], of_b = model.piece_body[piece_b];
+    if (pairs_.empty() || pairs_.back().a != of_a || pairs_.back().b != of_b) {
+      const Body &a = model.bodies[of_a], &b = model.bodies[of_b];
+      const double reduced_mass = fixed_[of_a] ? b.contact_mass
+                                  : fixed_[of_b]
                                       ? a.contact_mass
                                       : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
-      const auto first = static_cast<std::uint32_t>(piece_pairs_.size());
       BodyPair pair{};
-      pair.a = candidate.body_a, pair.b = candidate.body_b;
-      pair.piece_pair_start = first;
-      pair.master_share = master_share(pair.a, pair.b);
+      pair.a = of_a, pair.b = of_b;
+      pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs_.size());
+      pair.master_share = master_share(of_a, of_b);
       pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
       pair.reduced_mass = reduced_mass;
       pairs_.push_back(pair);
     }
-    piece_pairs_.push_back({candidate.piece_a, candidate.piece_b, 0});
+    piece_pairs_.push_back({piece_a, piece_b, 0});
     pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
   }
   ask_again_.assign(pairs_.size(), 0);

@@ -97,7 +97,7 @@ class ContactStage {
   static constexpr kernels::Way no_way{0, in_this_step, in_this_step};
 
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
-  void keep_touching();
+  void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
   void rebuild_pairs(const Model& model);
   void take_drift(const Model& model, const MotionState& motion);

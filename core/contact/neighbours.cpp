@@ -11,6 +11,8 @@ namespace {
 
 /// A piece wider than this many cells is tested against every other instead of filling the grid.
 constexpr double large_in_cells = 4;
+/// Whatever flies further shares the last cell, which only costs.
+constexpr double last_cell = 1 << 30;
 
 }  // namespace
 
@@ -48,18 +50,25 @@ void NeighbourSearch::measure_boxes(const Model& model, const MotionState& motio
   }
 }
 
+NeighbourSearch::Cell NeighbourSearch::cell_of(double x, double y) const {
+  const auto number = [&](double value) {
+    return static_cast<std::int32_t>(std::clamp(std::floor(value / cell_), -last_cell, last_cell));
+  };
+  return {number(x), number(y)};
+}
+
 void NeighbourSearch::fill_grid() {
   grid_.clear();
   large_.clear();
-  const auto cell_of = [&](double value) { return static_cast<std::int64_t>(std::floor(value / cell_)); };
   for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
     const Box& box = boxes_[p];
     if (std::max(box.high_x - box.low_x, box.high_y - box.low_y) > large_in_cells * cell_) {
       large_.push_back(p);
       continue;
     }
-    for (std::int64_t i = cell_of(box.low_x); i <= cell_of(box.high_x); ++i) {
-      for (std::int64_t j = cell_of(box.low_y); j <= cell_of(box.high_y); ++j) append_to(grid_, {i, j, p});
+    const Cell low = cell_of(box.low_x, box.low_y), high = cell_of(box.high_x, box.high_y);
+    for (std::int32_t x = low.x; x <= high.x; ++x) {
+      for (std::int32_t y = low.y; y <= high.y; ++y) append_to(grid_, {{x, y}, p});
     }
   }
   std::sort(grid_.begin(), grid_.end());
@@ -105,8 +114,7 @@ void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q
   const std::uint32_t body_p = model.piece_body[p], body_q = model.piece_body[q];
   if (!model.moves(body_p) && !model.moves(body_q)) return;
   if (body_p == body_q && !may_meet_itself(model, p, q)) return;
-  append_to(candidates, body_p < body_q || (body_p == body_q && p < q) ? Candidate{body_p, body_q, p, q}
-                                                                       : Candidate{body_q, body_p, q, p});
+  append_to(candidates, {std::min(p, q), std::max(p, q)});  // numbers of pieces rise with those of bodies
 }
 
 void NeighbourSearch::find(const Model& model, const MotionState& motion, double skin,
@@ -115,9 +123,13 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
   measure_boxes(model, motion, skin);
   fill_grid();
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    for (std::size_t j = i + 1; j < grid_.size(); ++j) {
-      if (grid_[j].cell_x != grid_[i].cell_x || grid_[j].cell_y != grid_[i].cell_y) break;
-      if (meet(grid_[i].piece, grid_[j].piece)) offer(model, grid_[i].piece, grid_[j].piece, candidates);
+    const auto& [cell, p] = grid_[i];
+    for (std::size_t j = i + 1; j < grid_.size() && grid_[j].cell == cell; ++j) {
+      const std::uint32_t q = grid_[j].piece;
+      // Of the cells that two pieces share, the one with the lower left corner of what their boxes share.
+      const Box &a = boxes_[p], &b = boxes_[q];
+      if (meet(p, q) && cell_of(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)) == cell)
+        offer(model, p, q, candidates);
     }
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {
@@ -127,8 +139,7 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
       if (!outside(model, motion, large_[i], p, skin)) offer(model, large_[i], p, candidates);
     }
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::sort(candidates.begin(), candidates.end(), CandidateOrder(model));
 }
 
 }  // namespace talus

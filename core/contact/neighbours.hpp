@@ -9,11 +9,28 @@
 
 namespace talus {
 
-/// Two pieces whose boxes come within the skin of each other; body a < body b, or piece a < piece b of a body
-/// that meets itself.
+/// Two pieces whose boxes come within the skin of each other: a of the body of lower number, or of lower
+/// number itself of a body that meets itself.
 struct Candidate {
-  std::uint32_t body_a, body_b, piece_a, piece_b;
-  auto operator<=>(const Candidate&) const = default;
+  std::uint32_t piece_a, piece_b;
+  bool operator==(const Candidate&) const = default;
+};
+
+/// By bodies, then by their pieces.
+class CandidateOrder {
+ public:
+  explicit CandidateOrder(const Model& model)
+      : body_(model.piece_body.data()), divided_(model.piece_body.size() != model.bodies.size()) {}
+
+  bool operator()(const Candidate& p, const Candidate& q) const {
+    if (divided_ && body_[p.piece_a] == body_[q.piece_a] && body_[p.piece_b] != body_[q.piece_b])
+      return p.piece_b < q.piece_b;
+    return p.piece_a != q.piece_a ? p.piece_a < q.piece_a : p.piece_b < q.piece_b;
+  }
+
+ private:
+  const std::uint32_t* body_;  ///< [piece], rising
+  bool divided_;               ///< some body has several
 };
 
 /// Finds candidates in O(N): a uniform grid for the common pieces, a list for the few that are much larger.
@@ -21,22 +38,27 @@ class NeighbourSearch {
  public:
   explicit NeighbourSearch(const Model& model);
 
-  /// All candidates with boxes grown by `skin`/2 each, sorted. Left out is what lies more than `skin` outside
-  /// of a side of a large piece, where one of both is fixed: boxes say little of long slopes. The vector is
-  /// reused.
+  /// All candidates with boxes grown by `skin`/2 each, in CandidateOrder. Left out is what lies more than
+  /// `skin` outside of a side of a large piece, where one of both is fixed: boxes say little of long slopes.
+  /// The vector is reused.
   void find(const Model& model, const MotionState& motion, double skin, std::vector<Candidate>& candidates);
 
  private:
   struct Box {
     double low_x, low_y, high_x, high_y;
   };
+  struct Cell {
+    std::int32_t x, y;
+    auto operator<=>(const Cell&) const = default;
+  };
   struct CellEntry {
-    std::int64_t cell_x, cell_y;
+    Cell cell;
     std::uint32_t piece;
     auto operator<=>(const CellEntry&) const = default;
   };
 
   void measure_boxes(const Model& model, const MotionState& motion, double skin);
+  Cell cell_of(double x, double y) const;
   void fill_grid();
   static bool may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q);
   bool meet(std::uint32_t p, std::uint32_t q) const;  ///< their boxes

@@ -54,8 +54,9 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
   latest_.assign(model.bodies.size(), nowhere);
   wave_bodies_.assign(1, 0);
   bodies_.clear();
-  pieces_.clear();
-  make_room_in(pieces_, 2 * piece_pairs.size());
+  first_.clear();
+  make_room_in(first_, 2 * piece_pairs.size());
+  if (any_divided_) make_room_in(piece_, 2 * piece_pairs.size());
   for (auto& entry : entry_) {
     make_room_in(entry, piece_pairs.size());
     entry.assign(piece_pairs.size(), nowhere);
@@ -106,16 +107,17 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
     ++bodies_[latest_[body]].end;
   });
   wave_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size()));
-  auto at = static_cast<std::uint32_t>(pieces_.size());
+  auto at = static_cast<std::uint32_t>(first_.size());
   for (std::size_t i = first; i < bodies_.size(); ++i) {
     const std::uint32_t count = bodies_[i].end;
     bodies_[i].begin = bodies_[i].end = at;
     at += count;
   }
-  pieces_.resize(at);
+  first_.resize(at, no_loads);
+  if (any_divided_) piece_.resize(at);
   visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t piece, std::uint32_t p, int side) {
     const std::uint32_t entry = bodies_[latest_[body]].end++;
-    pieces_[entry] = {no_loads, piece};
+    if (any_divided_) piece_[entry] = piece;
     entry_[side][p] = entry;
   });
   for (const BodyPair& pair : wave) {
@@ -127,8 +129,8 @@ void WaveLoads::gather(const Model& model, const BodyPair& pair, std::span<const
                        bool touching) {
   for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
     const std::uint32_t of_a = piece_pairs[p].load_start, of_b = of_a + corners_of(model, piece_pairs[p].a);
-    if (entry_[0][p] != nowhere) pieces_[entry_[0][p]].load = touching ? of_a : no_loads;
-    if (entry_[1][p] != nowhere) pieces_[entry_[1][p]].load = touching ? of_b : no_loads;
+    if (entry_[0][p] != nowhere) first_[entry_[0][p]] = touching ? of_a : no_loads;
+    if (entry_[1][p] != nowhere) first_[entry_[1][p]] = touching ? of_b : no_loads;
   }
 }
 
@@ -155,7 +157,7 @@ void WaveLoads::fill(const Model& model, std::span<const PiecePair> pieces_of_pa
 
 bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState& motion) {
   const std::size_t first = wave_bodies_[wave_], count = wave_bodies_[wave_ + 1] - first;
-  const kernels::GatheredLoads loads{bodies_.data() + first, pieces_.data(), corner_.data(), sum_.data(),
+  const kernels::GatheredLoads loads{bodies_.data() + first, first_.data(), corner_.data(), sum_.data(),
                                      still.empty() ? nullptr : still.data()};
   std::atomic<bool> sound{true};
   workers_.over(count, body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -165,7 +167,7 @@ bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState
       const kernels::BodyLoads& gathered = loads.bodies[i];
       if (gathered.corner_count != 0 || (!still.empty() && still[gathered.body] != 0)) continue;
       for (std::uint32_t at = gathered.begin; at != gathered.end; ++at)
-        all += add_piece_loads(model, pieces_[at], motion);
+        all += add_piece_loads(model, piece_[at], first_[at], motion);
     }
     if (!std::isfinite(all)) sound.store(false, std::memory_order_relaxed);
   });
@@ -173,19 +175,18 @@ bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState
 }
 
 /// Returns what adding all of them gives.
-double WaveLoads::add_piece_loads(const Model& model, const kernels::PieceLoads& loads,
+double WaveLoads::add_piece_loads(const Model& model, std::uint32_t piece, std::uint32_t first,
                                   MotionState& motion) const {
-  const CornerLoad* load = corner() + loads.load;
-  if (model.is_strip[loads.piece] != 0) {
-    const BoundarySide& side = model.sides[model.strips[model.piece_strip[loads.piece]].side];
+  const CornerLoad* load = corner() + first;
+  if (model.is_strip[piece] != 0) {
+    const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
     motion.add_force(side.start, {load[0].x, load[0].y});
     motion.add_force(side.end, {load[1].x, load[1].y});
     return (load[0].x + load[0].y) + (load[1].x + load[1].y);
   }
   double all = 0;
-  BodyForce& force = motion.forces[model.piece_body[loads.piece]];
-  for (std::uint32_t c = model.piece_start[loads.piece]; c < model.piece_start[loads.piece + 1];
-       ++c, ++load) {
+  BodyForce& force = motion.forces[model.piece_body[piece]];
+  for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c, ++load) {
     force.add({model.reference_x[c], model.reference_y[c]}, {load->x, load->y});
     all += load->x + load->y;
   }

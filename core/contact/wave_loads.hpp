@@ -62,7 +62,8 @@ class WaveLoads {
   void list_bodies(const Model& model, std::span<const BodyPair> wave,
                    std::span<const PiecePair> piece_pairs);
 
-  double add_piece_loads(const Model& model, const kernels::PieceLoads& loads, MotionState& motion) const;
+  double add_piece_loads(const Model& model, std::uint32_t piece, std::uint32_t first,
+                         MotionState& motion) const;
 
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
@@ -73,10 +74,11 @@ class WaveLoads {
   std::vector<std::uint32_t> batch_load_;    ///< [batch of pairs + 1] its first load; not more: a wave begins
   std::vector<kernels::BodyLoads> bodies_;   ///< wave after wave
   std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
-  std::vector<kernels::PieceLoads> pieces_;
-  std::vector<std::uint32_t> entry_[2];  ///< [piece pair] of its pieces a and b in pieces_; or nowhere
-  std::vector<std::uint32_t> latest_;    ///< [body] in bodies_, while they are listed
-  std::vector<CornerLoad> sum_;          ///< of bodies that gather from several waves
+  std::vector<std::uint32_t> first_;           ///< [entry] as GatheredLoads::first
+  std::vector<std::uint32_t> piece_;           ///< [entry] if any_divided_
+  std::vector<std::uint32_t> entry_[2];        ///< [piece pair] of its pieces a and b; or nowhere
+  std::vector<std::uint32_t> latest_;          ///< [body] in bodies_, while they are listed
+  std::vector<CornerLoad> sum_;                ///< of bodies that gather from several waves
   std::size_t wave_ = 0;
   std::size_t wave_size_;           ///< pairs
   std::uint32_t most_corners_ = 0;  ///< of a piece

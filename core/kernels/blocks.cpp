@@ -248,9 +248,9 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     load(&loads.sum[body.sum].x, first);
     load(&loads.sum[body.sum + 2].x, others);
   }
-  const PieceLoads* const end = loads.pieces + body.end;
-  for (const PieceLoads* piece = loads.pieces + body.begin; piece != end; ++piece) {
-    const CornerLoad* const from = loads.corner + piece->load;
+  const std::uint32_t* const end = loads.first + body.end;
+  for (const std::uint32_t* at = loads.first + body.begin; at != end; ++at) {
+    const CornerLoad* const from = loads.corner + *at;
     Quad more, more_others;
     load(&from[0].x, more);
     load(&from[2].x, more_others);
@@ -290,7 +290,7 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
       sum[i] = body.begun ? loads.sum[kept + i] : CornerLoad{0, 0};
     }
     for (std::uint32_t at = body.begin; at != body.end; ++at) {
-      const CornerLoad* const from = loads.corner + loads.pieces[at].load + part;
+      const CornerLoad* const from = loads.corner + loads.first[at] + part;
       for (std::uint32_t i = 0; i < here; ++i) {
         sum[i].x += from[i].x;
         sum[i].y += from[i].y;

@@ -34,16 +34,10 @@ struct SpeedExtremes {
   void add(const SpeedExtremes& other);
 };
 
-/// Loads of one pair on the corners of a piece.
-struct PieceLoads {
-  std::uint32_t load;  ///< index of the first; of zeros where the pair does not touch
-  std::uint32_t piece;
-};
-
 /// The loads on one body; where they are not all there are, their sums go on from one time to the next.
 struct BodyLoads {
   std::uint32_t body;
-  std::uint32_t begin, end;  ///< in GatheredLoads::pieces
+  std::uint32_t begin, end;  ///< in GatheredLoads::first
   std::uint32_t sum;         ///< where its sums stand meanwhile, four of them at least
   std::uint32_t corner_begin;
   std::uint32_t corner_count;  ///< of a body that is one convex piece; else 0
@@ -54,10 +48,11 @@ struct BodyLoads {
 /// Loads of contacts, to be gathered by bodies.
 struct GatheredLoads {
   const BodyLoads* bodies;
-  const PieceLoads* pieces;  ///< body after body
-  const CornerLoad* corner;  ///< one more may be read than there are
-  CornerLoad* sum;           ///< see BodyLoads::sum
-  const char* still;         ///< [body] whether to leave it as it is; null: none
+  const std::uint32_t* first;  ///< body after body, of each pair the first load on a piece of the body; of
+                               ///< zeros where the pair does not touch
+  const CornerLoad* corner;    ///< one more may be read than there are
+  CornerLoad* sum;             ///< see BodyLoads::sum
+  const char* still;           ///< [body] whether to leave it as it is; null: none
 };
 
 /// How velocities are updated: v₊ = keep v₋ + gain (f/m + g); see StepConditions.

@@ -95,7 +95,7 @@ struct SomeLoads {
   std::vector<double> x, y;
   std::vector<CornerLoad> corner, sum;
   std::vector<BodyLoads> bodies;
-  std::vector<PieceLoads> pieces;
+  std::vector<std::uint32_t> first_load;
   std::vector<char> still;
 
   explicit SomeLoads(bool begun, bool goes_on) {
@@ -108,9 +108,9 @@ struct SomeLoads {
                  first_sum = static_cast<std::uint32_t>(sum.size());
       still.push_back(b % 7 == 3 ? 1 : 0);
       for (std::uint32_t i = 0; i < count; ++i) x.push_back(random()), y.push_back(random());
-      const auto first = static_cast<std::uint32_t>(pieces.size());
+      const auto first = static_cast<std::uint32_t>(first_load.size());
       for (std::uint32_t c = 0; c < contacts; ++c) {
-        pieces.push_back({static_cast<std::uint32_t>(corner.size()), 0});
+        first_load.push_back(static_cast<std::uint32_t>(corner.size()));
         for (std::uint32_t i = 0; i < count; ++i) corner.push_back({random(), random()});
       }
       bodies.push_back({b, first, first + contacts, first_sum, corner_begin, count, begun, goes_on});
@@ -123,7 +123,7 @@ struct SomeLoads {
 
   std::vector<BodyForce> add(SimdLevel level) {
     std::vector<BodyForce> forces(bodies.size(), {{1, 2}, {3, 4, 5, 6}});
-    const GatheredLoads loads{bodies.data(), pieces.data(), corner.data(), sum.data(), still.data()};
+    const GatheredLoads loads{bodies.data(), first_load.data(), corner.data(), sum.data(), still.data()};
     block_kernels(level).add_loads(loads, x.data(), y.data(), forces.data(), 0, bodies.size());
     return forces;
   }
@@ -145,7 +145,7 @@ TEST_CASE("loads are gathered by all bodies of one piece that move, with the sam
         for (std::uint32_t i = 0; i < body.corner_count && takes_part; ++i) {
           double load = begun ? before[body.sum + i].x : 0;
           for (std::uint32_t at = body.begin; at < body.end; ++at)
-            load += due.corner[due.pieces[at].load + i].x;
+            load += due.corner[due.first_load[at] + i].x;
           sum += load;
           moment += load * due.x[body.corner_begin + i];
           if (goes_on) CHECK(due.sum[body.sum + i].x == load);
