@@ -127,7 +127,8 @@ GivenBatch DrivenLaw::given(double dt) {
   std::vector<PiecePair> piece_pairs;
   for (const auto& [a, b] : met) {
     const HeldBody &one = bodies[a], &other = bodies[b];
-    const PairState& state = history.try_emplace({a, b}, PairState{{}, 0, first_capacity}).first->second;
+    const PairState fresh{{}, 0, next_slot(), first_capacity};
+    const PairState& state = history.try_emplace({a, b}, fresh).first->second;
     BodyPair pair{};
     pair.a = a, pair.b = b;
     pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs.size());
@@ -139,15 +140,15 @@ GivenBatch DrivenLaw::given(double dt) {
     }
     pair.piece_pair_end = static_cast<std::uint32_t>(piece_pairs.size());
     pair.offset_x = other.centre.x - one.centre.x, pair.offset_y = other.centre.y - one.centre.y;
-    pair.master_share = master_share;
+    pair.master_share = static_cast<float>(master_share);
     const std::uint32_t surfaces[] = {arrays.plain_surface(a), arrays.plain_surface(b)};
     if (plain && surfaces[0] != internal_side && surfaces[1] != internal_side)
       describe_plain(pair, piece_pairs.back(), arrays.view(),
                      batch.row[surfaces[0] * batch.surface_count + surfaces[1]]);
     pair.reduced_mass = one.mass * other.mass / (one.mass + other.mass);
-    pair.slot_start = batch.slot_count, pair.slot_capacity = state.capacity;
+    pair.slot_start = state.slot_start, pair.slot_capacity = state.capacity;
     pair.contact_count = state.contacts;
-    batch.slot_count += state.capacity;
+    batch.slot_count = next_slot();
     kept.resize(std::size_t{batch.slot_count} * batch.doubles_per_contact, nothing_kept);
     std::copy(state.history.begin(), state.history.end(),
               kept.begin() + std::size_t{pair.slot_start} * batch.doubles_per_contact);
@@ -159,6 +160,13 @@ GivenBatch DrivenLaw::given(double dt) {
   batch.active.resize(pairs.size(), 0);
   std::iota(batch.active.begin(), batch.active.end(), 0U);
   return batch;
+}
+
+std::uint32_t DrivenLaw::next_slot() const {
+  std::uint32_t next = 0;
+  for (const auto& [bodies_of_pair, state] : history)
+    next = std::max(next, state.slot_start + state.capacity);
+  return next;
 }
 
 Evaluation DrivenLaw::evaluate(double dt) {
@@ -173,6 +181,9 @@ Evaluation DrivenLaw::evaluate(double dt) {
       const std::uint32_t count = taken.pairs[i].contact_count;
       if (count <= state.capacity) continue;
       if (count > 100000) throw std::runtime_error(fmt::format("a pair reports {} contacts", count));
+      // A pair gets other slots, behind all there are; one that has had none moves nothing a plan may know.
+      if (state.capacity > 0) ++layout;
+      state.slot_start = next_slot();
       state.capacity = count;
       short_of_room = true;
     }

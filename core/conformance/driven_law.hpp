@@ -64,13 +64,15 @@ class DrivenLaw {
 
   struct PairState {
     std::vector<double> history;
-    std::uint32_t contacts = 0, capacity = 0;
+    std::uint32_t contacts = 0, slot_start = 0, capacity = 0;
   };
   using History = std::map<std::pair<std::uint32_t, std::uint32_t>, PairState>;
   History history;
+  std::uint64_t layout = 1;  ///< as ContactBatch::layout, while `met` stays as it is
 
  private:
   Evaluation evaluate(double dt);
+  std::uint32_t next_slot() const;  ///< behind all that pairs have
 
   const RegisteredComponent* component_;
   Made<ContactModel> law_;

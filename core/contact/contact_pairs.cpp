@@ -109,7 +109,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
       BodyPair pair{};
       pair.a = of_a, pair.b = of_b;
       pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs_.size());
-      pair.master_share = master_share(of_a, of_b);
+      pair.master_share = static_cast<float>(master_share(of_a, of_b));
       pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
       pair.reduced_mass = reduced_mass;
       pairs_.push_back(pair);

@@ -58,13 +58,13 @@ void ContactSlots::lay_out(std::span<BodyPair> pairs, std::span<const std::uint3
                       taken = slots_of(pairs.subspan(batch_begin[batch], count)),
                       slots = taken + waiting_for(count);
     append_to(taken_, static_cast<std::uint32_t>(taken));
-    append_to(base_, static_cast<std::uint32_t>(base_.back() + slots));
+    append_to(base_, base_.back() + slots);
     most_ = std::max(most_, slots);
   }
   make_room_in(former_base_, base_.size());
   over_all([&](auto& values, std::size_t per_slot) {
     // Memory that nobody touches costs nothing, and to move what there is takes twice as much of it.
-    make_room_in(values, std::max<std::size_t>(base_.back(), pairs.size()) * per_slot);
+    make_room_in(values, std::max(base_.back(), pairs.size()) * per_slot);
     values.resize(base_.back() * per_slot);
     // From the last on: no contact has its place before the one it comes from.
     for (std::size_t batch = taken_.size(); batch-- > 0;) {
@@ -90,7 +90,7 @@ void ContactSlots::widen(std::span<const std::uint32_t> wanted) {
     const std::size_t needed = std::size_t{taken_[batch]} + wanted[batch];
     std::size_t slots = former_base_[batch + 1] - former_base_[batch];
     if (needed > slots) slots = needed + waiting_for(needed);
-    base_[batch + 1] = static_cast<std::uint32_t>(base_[batch] + slots);
+    base_[batch + 1] = base_[batch] + slots;
     most_ = std::max(most_, slots);
   }
   if (base_.back() == former_base_.back()) return;

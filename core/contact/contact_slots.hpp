@@ -73,9 +73,9 @@ class ContactSlots {
   static void move(Values& values, std::size_t per_slot, std::size_t from, std::size_t count, std::size_t to);
 
   std::uint32_t doubles_ = 0;
-  std::vector<std::uint32_t> base_{0};         ///< [batch + 1]
-  std::vector<std::uint32_t> former_base_{0};  ///< while slots are moved
-  std::vector<std::uint32_t> taken_;           ///< [batch] of its slots; the others wait
+  std::vector<std::size_t> base_{0};         ///< [batch + 1]
+  std::vector<std::size_t> former_base_{0};  ///< while slots are moved
+  std::vector<std::uint32_t> taken_;         ///< [batch] of its slots; the others wait
   std::size_t most_ = 0;
   InLines<double> history_;
   std::vector<ContactReport> reports_;

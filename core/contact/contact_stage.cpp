@@ -172,15 +172,25 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   std::vector<std::unique_ptr<BatchPlan>> plans;
   plans.swap(plans_);
   interfaces_.value = former_interface_values_.data();
+  const auto add_energies = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
+    for (const std::uint32_t i : active) {
+      const std::size_t pair = batch_begin_[batch] + i;
+      ChunkTotals& chunk = chunk_totals_[pair / pair_chunk];
+      chunk.stored += found.reports[i].stored;
+      chunk.slip_loss += found.reports[i].slip_loss;
+      if (found.reports[i].contact_count > pairs_[pair].slot_capacity) note_short_of_room(pair, i, found);
+    }
+  };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
-    ask(model, motion, conditions, wave(number), way_, true,
-        [&](std::size_t batch, std::span<const std::uint32_t> active, const Workspace& found) {
-          for (const std::uint32_t i : active) {
-            ChunkTotals& chunk = chunk_totals_[(batch_begin_[batch] + i) / pair_chunk];
-            chunk.stored += found.reports[i].stored;
-            chunk.slip_loss += found.reports[i].slip_loss;
-          }
-        });
+    ask(model, motion, conditions, wave(number), way_, true, add_energies);
+    // What a pair without room holds a law need not say: all of the wave once more.
+    while (some_short_of_room() && runaway().found.empty()) {
+      make_room();
+      const Wave now = wave(number);
+      std::fill(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.first_chunk()),
+                chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.end_chunk()), ChunkTotals{});
+      ask(model, motion, conditions, now, way_, true, add_energies);
+    }
   }
   interfaces_.value = interface_values_.data();
   plans_.swap(plans);
@@ -264,7 +274,7 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_[begin + i], piece_pairs_, true);
     for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_[begin + i], piece_pairs_, false);
     for (const std::uint32_t i : closed.short_of_room) {
-      append_to(found.short_of_room, {static_cast<std::uint32_t>(begin + i), found.reports[i].contact_count});
+      note_short_of_room(begin + i, i, found);
       ask_again_[begin + i] = in_this_step;
     }
     if (!closed.finite) chunk.unsound = first_unsound(begin, of_chunk, found);

@@ -126,7 +126,7 @@ class ContactStage {
     std::vector<std::uint32_t> active;
     std::vector<PairReport> reports;
     InLines<double> history;                 ///< of the slots of the batch
-    std::vector<ShortOfRoom> short_of_room;  ///< of all batches since the last call of make_room()
+    std::vector<ShortOfRoom> short_of_room;  ///< until some_short_of_room() takes them
   };
   struct ChunkTotals : ContactTotals {
     std::uint32_t unsound = no_pair;  ///< a pair with a report that is no number
@@ -147,6 +147,9 @@ class ContactStage {
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
            const kernels::Way& gone, bool anew, const Each& each);
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active, Workspace& found);
+  static void note_short_of_room(std::size_t pair, std::uint32_t in_batch, Workspace& found) {
+    append_to(found.short_of_room, {static_cast<std::uint32_t>(pair), found.reports[in_batch].contact_count});
+  }
   bool some_short_of_room();
   void make_room();
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,

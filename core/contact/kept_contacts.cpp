@@ -1,15 +1,6 @@
 #include "contact/contact_stage.hpp"
 
-#include <limits>
-
 namespace talus {
-namespace {
-
-/// That can be counted, with those that wait.
-constexpr std::size_t most_slots = std::numeric_limits<std::uint32_t>::max() / 4;
-
-}  // namespace
-
 void ContactStage::exchange(Archive& archive, const Model& model) {
   if (!law_) return;
   archive(slack_);
@@ -27,6 +18,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive(island_);
   if (archive.reading()) {
     if (!fits(model)) Archive::refuse();
+    for (BodyPair& pair : pairs_) pair.slot_capacity = pair.contact_count;
     lay_out_loads(model);
   }
   lay_out_slots();
@@ -42,18 +34,17 @@ bool ContactStage::fits(const Model& model) const {
   for (const PiecePair& pieces : piece_pairs_) {
     if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
   }
-  std::size_t contacts = 0, slots = 0;
+  std::size_t contacts = 0;
   for (const BodyPair& pair : pairs_) {
     if (pair.slot_start != contacts) return false;
     contacts += pair.contact_count;
-    slots += pair.slot_capacity;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
         pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
         (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1) ||
         pair.contact_count > pair.slot_capacity)
       return false;
   }
-  return slots_.hold(contacts) && slots <= most_slots;
+  return slots_.hold(contacts);
 }
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -35,15 +36,17 @@ struct SomePairs {
     for (std::uint32_t i = 0; i < 2 * pair_chunk - 9; ++i) {
       BodyPair pair{};
       pair.a = i, pair.b = i + 1000;
-      pair.slot_start = slot, pair.slot_capacity = 1 + i % 3;
       pair.contact_count = i % 5 == 0 ? 0 : 1;
+      pair.slot_start = slot,
+      pair.slot_capacity = i % 3 + pair.contact_count;  // without contact down to none
       slot += pair.slot_capacity;
       PairReport report{};
       if (i % 4 == 0) {
         report.gap = random();
         report.slip_loss = pair.contact_count == 0 ? 0 : random();  // let go as the pair parts
       } else {
-        const std::uint32_t contacts = i % 17 == 1 ? pair.slot_capacity + 2 : 1 + i % pair.slot_capacity;
+        const std::uint32_t contacts =
+            i % 17 == 1 ? pair.slot_capacity + 2 : 1 + i % std::max(pair.slot_capacity, 1U);
         report = {contacts, random(), random(), random(), random(), 0};
       }
       pairs.push_back(pair);

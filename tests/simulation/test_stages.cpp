@@ -302,3 +302,26 @@ TEST_CASE("a body that was turned inside out stops the run, however it is covere
     CHECK_THROWS_WITH(run_to_end(text), Catch::Contains("inside out") && Catch::Contains("young_modulus"));
   }
 }
+
+TEST_CASE("a stage that changes nothing does no work on bodies that meet as it begins",
+          "[simulation][stages]") {
+  for (const char* law : {"overlap_area", "frictionless", "vertex_edge"}) {
+    CAPTURE(law);
+    WorkingScene text;
+    text.cover = "rigid";
+    text.law = law;
+    text.interface = R"("normal_stiffness": 1e10, "normal_damping": 0)";
+    if (text.law != "frictionless")
+      text.interface += R"(, "tangential_stiffness": 1e10, "friction_angle": 30, "tangential_damping": 0)";
+    text.bodies = box("base", -1, -1, 2, 0, R"("fixed": true)") + ", " +
+                  box("a", 0, 0.00105, 1, 1.00105, R"("velocity": [0, -1])");
+    text.rest = R"("stages": [{"name": "same", "from": 0.0011, "set": {"/gravity": [0, 0]}}],)";
+    text.time = R"({"end": 0.0013, "dt": 1e-4})";
+    text.output = R"({"history": 1e-4})";
+    Simulation simulation(text.read(), {});
+    while (simulation.advance()) {
+    }
+    REQUIRE(simulation.ledger().contact > 10);
+    CHECK(simulation.ledger().external_work == 0);
+  }
+}

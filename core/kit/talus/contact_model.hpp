@@ -54,14 +54,14 @@ struct BodyPair {
   std::uint32_t b;
   std::uint32_t piece_pair_start;  ///< its piece pairs are [piece_pair_start, piece_pair_end)
   std::uint32_t piece_pair_end;
-  double master_share;  ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
+  float master_share;   ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
+  float clear_depth;    ///< m, of plain bodies: the lesser of Boundaries::clear_depth, or a little less
   double offset_x;      ///< m, added to a position of body b gives it in the frame of body a
   double offset_y;      ///< m
   double reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
                         ///< fixed; a body of many elements counts by a patch of its boundary
-  double clear_depth;   ///< m, of plain bodies: the lesser of Boundaries::clear_depth
   std::uint32_t slot_start;     ///< first contact slot of this pair
-  std::uint32_t slot_capacity;  ///< how many contacts it can hold; none before it first has some
+  std::uint32_t slot_capacity;  ///< how many contacts it can hold; 0 until it has some
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
   std::uint16_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
@@ -116,7 +116,8 @@ inline void describe_plain(BodyPair& pair, const PiecePair& pieces, const Bounda
   pair.load_start = pieces.load_start;
   pair.interface_row = interface_row;
   const double depth_a = boundaries.clear_depth[pieces.a], depth_b = boundaries.clear_depth[pieces.b];
-  pair.clear_depth = depth_a < depth_b ? depth_a : depth_b;
+  constexpr double below = 1 - 1e-7;  // whichever way it is rounded
+  pair.clear_depth = static_cast<float>(below * (depth_a < depth_b ? depth_a : depth_b));
 }
 
 /// One contact, for pictures and diagnosis. In the frame of the pair.

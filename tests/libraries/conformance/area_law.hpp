@@ -202,6 +202,7 @@ class AreaLaw : public talus::ContactModel {
       sink.at_corner(piece, side, squeeze() * load * piece.tangent(side));
       sink.at_corner(piece, piece.next(side), -squeeze() * load * piece.tangent(side));
     }
+    if (pair.slot_capacity == 0) return;
     loads.history[pair.slot_start] = force;
     if (loads.reports != nullptr) {
       loads.reports[pair.slot_start] = {

@@ -27,6 +27,7 @@ class Attracts final : public AreaLaw {
     sink.at_corner(seen.first[0], corner[0], pull);
     sink.at_corner(seen.first[1], corner[1], -1.0 * pull);
     report.contact_count = 1;
+    if (seen.pair->slot_capacity == 0) return true;
     loads.history[seen.pair->slot_start] = 0;
     if (loads.reports != nullptr) loads.reports[seen.pair->slot_start] = {};
     return true;

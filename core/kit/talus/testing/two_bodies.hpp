@@ -61,7 +61,7 @@ class TwoBodies {
     BodyPair pair{};
     pair.b = 1;
     pair.piece_pair_end = 1;
-    pair.master_share = master_share;
+    pair.master_share = static_cast<float>(master_share);
     pair.reduced_mass = reduced_mass;
     pair.slot_capacity = capacity;
     pair.contact_count = contacts_;
