@@ -1,0 +1,320 @@
+#pragma once
+
+#include <talus/contact_model.hpp>
+#include <talus/overlap/friction.hpp>
+#include <talus/overlap/lane_cells.hpp>
+#include <talus/overlap/lane_group.hpp>
+
+namespace talus::overlap {
+inline namespace TALUS_SIMD_LEVEL {
+
+/// The distributed law for the pairs of one group, a lane each.
+template <class Law, int corners>
+class LaneLoads {
+ public:
+  /// Returns the lanes that it cannot serve.
+  LaneBits evaluate(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                    const LaneGroup<corners>& group) {
+    // Triangles and quadrilaterals, which most blocks are, need no look at which lane has which side.
+    if constexpr (corners == 4) {
+      const int sides = group.sides[0], other_sides = group.sides[1];
+      if (sides == 4 && other_sides == 4) return evaluate_lanes<4, 4>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 3) return evaluate_lanes<3, 3>(law, batch, loads, group);
+      if (sides == 3 && other_sides == 4) return evaluate_lanes<3, 4>(law, batch, loads, group);
+      if (sides == 4 && other_sides == 3) return evaluate_lanes<4, 3>(law, batch, loads, group);
+    }
+    return evaluate_lanes<mixed, mixed>(law, batch, loads, group);
+  }
+
+ private:
+  template <int sides, int other_sides>
+  LaneBits evaluate_lanes(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
+                          const LaneGroup<corners>& g) {
+    rows_[0].template lay_out<sides>(g.places[0]);
+    rows_[1].template lay_out<other_sides>(g.places[1]);
+    piece_[0].template read<sides>(batch.boundaries.corner, rows_[0], g.offset(0));
+    piece_[1].template read<other_sides>(batch.boundaries.corner, rows_[1], g.offset(1));
+    const LaneParameters interface(law, batch.interfaces, g);
+
+    const Pack share = g.averaged ? 0.5 : 1.0;
+    roles_ = g.averaged ? 2 : 1;
+    Mask refused = piece_[0].degenerate | piece_[1].degenerate;
+    const Pack stiffness = share * interface.normal_stiffness, clear_depth = simd::load(g.clear_depth);
+    const bool damped = simd::any(interface.normal_damping > 0.0);
+    cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, clear_depth, damped);
+    if (g.averaged)
+      cells_[1].template find<other_sides, sides>(piece_[1], piece_[0], stiffness, clear_depth, damped);
+    for (int role = 0; role < roles_; ++role) {
+      refused = refused | cells_[role].deep | !(cells_[role].area > 0.0);
+    }
+    find_tangent();
+    Report report;
+    report.stored = roles_ == 2 ? cells_[0].stored + cells_[1].stored : cells_[0].stored;
+    report.penetration =
+        roles_ == 2 ? simd::max(cells_[0].penetration, cells_[1].penetration) : cells_[0].penetration;
+    load_normally(g, interface, stiffness, share, batch.dt, damped, report);
+    if constexpr (Law::frictional) friction<sides, other_sides>(g, interface, batch, report);
+    const LaneBits unserved = simd::bits(refused) & g.live;
+    write<sides, other_sides>(loads, g, report, g.live & ~unserved);
+    return unserved;
+  }
+
+  /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it. Of the arcs, which share
+  /// their ends, one tells the contact length. Where the overlap is no more than rounding, one role may see
+  /// all of it and the other next to nothing: then the longer arc tells, or dashpots along it would be those
+  /// of a point. An arc that closes on itself has no length.
+  void find_tangent() {
+    const Packs2 force = roles_ == 2 ? cells_[0].force - cells_[1].force : cells_[0].force;
+    const Pack size = simd::sqrt(simd::dot(force, force));
+    const Pack inverse = simd::only_where(size > 0.0, 1.0 / size);  // springs may have no stiffness
+    tangent_ = {-force.y * inverse, force.x * inverse};
+    contact_length_ = simd::abs(simd::dot(cells_[0].arc, tangent_));
+    Pack longest = cells_[0].arc_length;
+    if (roles_ == 2) {
+      const Pack other = simd::abs(simd::dot(cells_[1].arc, tangent_));
+      contact_length_ = simd::select(other > contact_length_ + contact_length_, other, contact_length_);
+      longest = simd::max(longest, cells_[1].arc_length);
+    }
+    contact_length_ = simd::only_where(contact_length_ > 1e-9 * longest, contact_length_);
+  }
+
+  struct Report {
+    Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0;
+    Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
+    Packs2 foot;            ///< m, where it acts
+    Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
+  };
+
+  /// Puts the pressure on both pieces, and a dashpot along the normal of each cell.
+  void load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness, Pack share,
+                     double dt, bool damped, Report& report) {
+    if (!damped) {
+      each_cell([&](LaneCell& cell) { load_cell<false>(cell, stiffness, 0.0); });
+      return;
+    }
+    const Pack viscosity = simd::only_where(
+        contact_length_ > 0.0,
+        share * 2.0 * interface.normal_damping *
+            simd::sqrt(interface.normal_stiffness * simd::load(g.reduced_mass) / contact_length_));
+    Pack power = 0.0;
+    each_cell([&](LaneCell& cell) { power = power + load_cell<true>(cell, stiffness, viscosity); });
+    report.damping_power = power * dt;
+  }
+
+  template <class Visit>
+  void each_cell(const Visit& visit) {
+    for (int role = 0; role < roles_; ++role) {
+      for (LaneCell& cell : cells_[role].cells()) visit(cell);
+    }
+  }
+
+  /// Eqs. 28–36: on the slave by the trapezoid rule, on the master through the foot. The dashpot never pulls.
+  /// Returns its power.
+  template <bool damped>
+  static Pack load_cell(LaneCell& cell, Pack stiffness, Pack viscosity) {
+    LaneCorner* const master = cell.master;
+    const Packs2 normal = master->normal();
+    const Pack master_start = simd::dot(normal, master->velocity),
+               master_change = simd::dot(normal, master[1].velocity) - master_start;
+    Pack all = cell.load, on_end = cell.on_end, power = 0.0;
+    for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
+      LaneCorner* const slave = at->slave;
+      const Pack pressed = stiffness * at->length;
+      const Pack press0 = pressed * at->start_depth, press1 = pressed * at->end_depth;
+      const Pack press_end = press0 * at->start + press1 * at->end, press_start = press0 + press1 - press_end;
+      const Packs2 inward{-slave->tangent.y, slave->tangent.x};
+      if constexpr (!damped) {
+        slave[0].push(press_start, inward);
+        slave[1].push(press_end, inward);
+        continue;
+      }
+      const Pack slave_start = simd::dot(normal, slave->velocity),
+                 slave_change = simd::dot(normal, slave[1].velocity) - slave_start;
+      const Pack start = master_start - slave_start;
+      const Pack rate0 = start + at->start_lever * master_change - at->start * slave_change;
+      const Pack rate1 = start + at->end_lever * master_change - at->end * slave_change;
+      const Pack scale = viscosity * at->facing * (1.0 / 6.0), most = -stiffness * at->facing;
+      const Pack force0 = simd::max(scale * (rate0 + rate0 + rate1), most * at->start_depth);
+      const Pack force1 = simd::max(scale * (rate1 + rate1 + rate0), most * at->end_depth);
+      const Pack both = force0 + force1, damp_end = force0 * at->start + force1 * at->end;
+      slave[0].load = slave[0].load + (press_start * inward + (both - damp_end) * normal);
+      slave[1].load = slave[1].load + (press_end * inward + damp_end * normal);
+      all = all + both;
+      on_end = on_end + (force0 * at->start_lever + force1 * at->end_lever);
+      power = power + (force0 * rate0 + force1 * rate1);
+    }
+    master[0].push(on_end - all, normal);
+    master[1].push(-on_end, normal);
+    // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
+    // the strain of a sliding block.
+    cell.load = simd::max(0.0, all);
+    cell.on_end = simd::clamp(on_end, 0.0, cell.load);
+    return power;
+  }
+
+  /// N/m, on all cells.
+  Pack load_of_all() const {
+    Pack load = 0.0;
+    for (int role = 0; role < roles_; ++role) {
+      for (const LaneCell& cell : cells_[role].cells()) load = load + cell.load;
+    }
+    return load;
+  }
+
+  /// Where the loads of all cells act together; without load, the mean over their areas.
+  Packs2 foot_of_all(Pack load) const {
+    const auto mean = [&](Pack total, const auto& weight, const auto& on_end) {
+      Packs2 moment{0.0, 0.0};
+      for (int role = 0; role < roles_; ++role) {
+        for (const LaneCell& cell : cells_[role].cells())
+          moment = moment + (weight(cell) * cell.master->at + on_end(cell) * cell.side());
+      }
+      return 1.0 / total * moment;
+    };
+    const Packs2 foot = mean(
+        load, [](const LaneCell& cell) { return cell.load; },
+        [](const LaneCell& cell) { return cell.on_end; });
+    const Mask loaded = load > 0.0;
+    if (simd::bits(loaded) == all_lanes) return foot;
+    const Pack area = roles_ == 2 ? cells_[0].area + cells_[1].area : cells_[0].area;
+    const Packs2 middle = mean(
+        area, [](const LaneCell& cell) { return cell.area; },
+        [](const LaneCell& cell) { return cell.area * cell.lever; });
+    return simd::select(loaded, foot, middle);
+  }
+
+  /// Eqs. 37–44: the slip is that through which the tangential load works. Cells take it by their loads, on
+  /// both bodies at one common point each; of bodies that move by one affine map this is the same as all of
+  /// it at the foot of all.
+  template <int sides, int other_sides>
+  void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const ContactBatch& batch,
+                Report& report) {
+    const Pack load = load_of_all();
+    const Packs2 foot = foot_of_all(load);
+    Pack share[corners], other_share[corners];
+    piece_[0].template share_point<sides>(foot, share);
+    piece_[1].template share_point<other_sides>(foot, other_share);
+    const Pack slip = simd::dot(tangent_, piece_[1].template velocity_of<other_sides>(other_share) -
+                                              piece_[0].template velocity_of<sides>(share));
+    const Pack increment = slip * batch.dt;
+
+    Pack old[4];
+    const double* history[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+      history[lane] = batch.history + std::size_t{g.slot[lane]} * friction_doubles;
+    simd::gather_rows(history, old);
+    const Mask remembered = simd::mask_of(g.remembered);
+    for (Pack& value : old) value = simd::only_where(remembered, value);
+    const Pack old_elastic = old[0], old_applied = old[1], old_stored = old[2], old_length = old[3];
+    const Pack limit = interface.friction * load;
+    const Mask holds = (limit > 0.0) & (contact_length_ > 0.0);
+    const Pack bound = batch.hold_stick ? Pack(1e300) : limit;
+    const Pack stiffness = interface.tangential_stiffness * contact_length_;
+    const Pack carried =
+        simd::select(contact_length_ < old_length, old_elastic * (contact_length_ / old_length), old_elastic);
+    const Pack trial = carried - stiffness * increment;
+    const Pack elastic = simd::only_where(holds, simd::clamp(trial, -bound, bound));
+    const Mask slips = holds & (simd::abs(trial) > bound);
+    report.elastic = report.applied = elastic;
+    report.spring_energy =
+        simd::only_where(holds & (stiffness > 0.0), elastic * elastic / (stiffness + stiffness));
+    report.slip = simd::only_where(slips, simd::select(trial < 0.0, -1.0, 1.0));
+    report.stored = report.stored + report.spring_energy;
+    report.slip_loss = -(old_applied + elastic) * increment * 0.5 - (report.spring_energy - old_stored);
+
+    report.tangential = elastic;
+    if (simd::any(interface.tangential_damping > 0.0)) {
+      const Pack viscosity =
+          2.0 * interface.tangential_damping * simd::sqrt(stiffness * simd::load(g.reduced_mass));
+      const Pack damped = simd::clamp(elastic - viscosity * slip, -bound, bound);
+      report.tangential =
+          simd::select(holds & !slips & (interface.tangential_damping > 0.0), damped, elastic);
+      report.damping_power =
+          report.damping_power + simd::max(0.0, -(report.tangential - elastic) * increment);
+    }
+    const Packs2 force = report.tangential * tangent_;
+    piece_[0].template push_point<sides>(share, Pack(-1.0) * force);
+    piece_[1].template push_point<other_sides>(other_share, force);
+    report.foot = foot;
+  }
+
+  template <int sides, int other_sides>
+  void write(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report, LaneBits wanted) {
+    const auto close = [](LanePiece<corners>& piece, int after_last) {
+      piece.corner[0].load = piece.corner[0].load + piece.corner[after_last].load;
+    };
+    close(piece_[0], corners_of(sides, corners));
+    close(piece_[1], corners_of(other_sides, corners));
+    g.template write_loads<sides, other_sides>(loads, wanted, rows_, piece_);
+    double *report_row[lanes], *row[lanes], *second_row[lanes];
+    PairReport spare;
+    double spare_history[friction_doubles];
+    const auto write_to = [&](int lane, PairReport& to, [[maybe_unused]] double* history,
+                              [[maybe_unused]] std::uint32_t slot) {
+      to.contact_count = 1;
+      to.gap = 0;
+      report_row[lane] = &to.penetration;
+      if constexpr (Law::frictional) {
+        row[lane] = history + std::size_t{slot} * friction_doubles;
+        second_row[lane] = row[lane] + 4;
+      }
+    };
+    const auto write_to_pair = [&](int lane) {
+      write_to(lane, loads.pairs[g.pair[lane]], loads.history, g.slot[lane]);
+    };
+    if (wanted == all_lanes) {
+      for (int lane = 0; lane < lanes; ++lane) write_to_pair(lane);
+    } else {
+      for (int lane = 0; lane < lanes; ++lane) {
+        if ((wanted >> lane & 1) != 0)
+          write_to_pair(lane);
+        else
+          write_to(lane, spare, spare_history, 0);
+      }
+    }
+    const Pack energies[4] = {report.penetration, report.stored, report.slip_loss, report.damping_power};
+    simd::scatter_rows(energies, report_row);
+    if constexpr (Law::frictional) {
+      const Pack first[4] = {report.elastic, report.applied, report.spring_energy, contact_length_};
+      simd::scatter_rows(first, row);
+      const Pack second[4] = {report.foot.x, report.foot.y, report.slip,
+                              TouchingPair::pattern_unit * cells_[0].pattern + simd::load(g.starts)};
+      simd::scatter_rows(second, second_row);
+    }
+    if (loads.reports != nullptr) write_contacts(loads, g, report, wanted);
+  }
+
+  void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
+                      LaneBits wanted) const {
+    Packs2 normal{0.0, 0.0};
+    for (int role = 0; role < roles_; ++role) {
+      for (const LaneCell& cell : cells_[role].cells())
+        normal = normal + (role == 0 ? cell.load : -cell.load) * cell.master->normal();
+    }
+    const Packs2 foot = foot_of_all(load_of_all());
+    const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
+    alignas(64) double value[8][lanes];
+    simd::store(foot.x, value[0]);
+    simd::store(foot.y, value[1]);
+    simd::store(side * normal.x, value[2]);
+    simd::store(side * normal.y, value[3]);
+    simd::store(side * report.tangential * tangent_.x, value[4]);
+    simd::store(side * report.tangential * tangent_.y, value[5]);
+    simd::store(report.penetration, value[6]);
+    simd::store(simd::abs(report.slip), value[7]);
+    each_lane(wanted, [&](int lane) {
+      loads.reports[g.slot[lane]] = {value[0][lane], value[1][lane], value[2][lane], value[3][lane],
+                                     value[4][lane], value[5][lane], value[6][lane], value[7][lane]};
+    });
+  }
+
+  LaneRows<corners> rows_[2];
+  LanePiece<corners> piece_[2];
+  LaneCells<corners> cells_[2];
+  int roles_ = 1;
+  Packs2 tangent_;
+  Pack contact_length_;
+};
+
+}  // namespace TALUS_SIMD_LEVEL
+}  // namespace talus::overlap
