@@ -5,6 +5,7 @@
 #include "contact/contact_totals.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
+#include "contact/room.hpp"
 #include "contact/wave_loads.hpp"
 #include "kernels/blocks.hpp"
 #include "kernels/contacts.hpp"

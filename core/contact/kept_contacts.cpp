@@ -1,5 +1,9 @@
 #include "contact/contact_stage.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 namespace talus {
 void ContactStage::exchange(Archive& archive, const Model& model) {
   if (!law_) return;
@@ -25,7 +29,8 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   if (archive.reading() && !island_.empty()) hold_sleeping_pairs();
 }
 
-/// Whether all indices lead into the arrays of this scene.
+/// Whether all indices lead into the arrays of this scene, and pairs are what a search makes of them: those
+/// in contact are found again by their bodies and pieces.
 bool ContactStage::fits(const Model& model) const {
   const std::size_t pairs = pairs_.size();
   if (ask_again_.size() != pairs || approach_.size() != pairs ||
@@ -34,15 +39,20 @@ bool ContactStage::fits(const Model& model) const {
   for (const PiecePair& pieces : piece_pairs_) {
     if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
   }
+  const auto bodies = [](const BodyPair& pair) { return std::pair{pair.a, pair.b}; };
+  if (std::ranges::adjacent_find(pairs_, std::greater_equal{}, bodies) != pairs_.end()) return false;
   std::size_t contacts = 0;
   for (const BodyPair& pair : pairs_) {
     if (pair.slot_start != contacts) return false;
     contacts += pair.contact_count;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
-        pair.piece_pair_start > pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
-        (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1) ||
-        pair.contact_count > pair.slot_capacity)
+        pair.piece_pair_start >= pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
+        (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1))
       return false;
+    const auto of_others = [&](const PiecePair& pieces) {
+      return model.piece_body[pieces.a] != pair.a || model.piece_body[pieces.b] != pair.b;
+    };
+    if (std::ranges::any_of(pieces_of(pair), of_others)) return false;
   }
   return slots_.hold(contacts);
 }

@@ -1,4 +1,5 @@
 #include "contact/contact_stage.hpp"
+#include "output/input_error.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/working_scene.hpp"
@@ -312,6 +313,41 @@ TEST_CASE("threads that share pairs anew between searches find the same, and his
     }
     CHECK(remembers);
   }
+}
+
+TEST_CASE("a state whose pairs are none that a search could have made is refused", "[contact][stage]") {
+  HeldStage stage(raft(), shipped_registry());
+  push_together(stage.motion);
+  stage.evaluate();
+  Archive kept;
+  stage.contacts.exchange(kept, stage.model);
+  const auto take = [&](const BodyPair& instead) {
+    std::string bytes = kept.bytes();
+    const BodyPair& first = stage.contacts.pairs()[0];
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&first), sizeof first));
+    REQUIRE(at != std::string::npos);
+    std::memcpy(bytes.data() + at, &instead, sizeof instead);
+    HeldStage again(raft(), shipped_registry());
+    Archive taken{std::string_view(bytes)};
+    again.contacts.exchange(taken, again.model);
+  };
+  const BodyPair pair = stage.contacts.pairs()[0];
+  REQUIRE(pair.contact_count > 0);
+  REQUIRE(stage.contacts.pairs().size() > 1);
+  CHECK_NOTHROW(take(pair));
+  const auto spoilt = [&](auto BodyPair::*member, std::uint32_t value) {
+    BodyPair other = pair;
+    other.*member = value;
+    return other;
+  };
+  CHECK_THROWS_AS(take(spoilt(&BodyPair::b, pair.b + 1)), InputError);
+  CHECK_THROWS_AS(take(spoilt(&BodyPair::a, pair.b)), InputError);
+  CHECK_THROWS_AS(take(spoilt(&BodyPair::piece_pair_end, pair.piece_pair_start)), InputError);
+  CHECK_THROWS_AS(take(spoilt(&BodyPair::slot_start, 1)), InputError);
+  CHECK_THROWS_AS(take(spoilt(&BodyPair::contact_count, 0)), InputError);
+  BodyPair swollen = pair;  // what is only room is not believed
+  swollen.slot_capacity = 0xFFFFFFFFu;
+  CHECK_NOTHROW(take(swollen));
 }
 
 TEST_CASE("a look with the former interfaces leaves nothing behind for the step", "[contact][stage]") {
