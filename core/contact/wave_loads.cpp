@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -15,9 +17,16 @@ constexpr double guard_load = -1.2345678901234567e-300;
 constexpr std::uint32_t nowhere = 0xFFFFFFFFu;
 constexpr std::uint32_t no_loads = 0;  ///< where zeros stand, before all loads
 constexpr std::size_t body_chunk = 64;
+constexpr std::uint32_t most_summed = std::numeric_limits<std::uint16_t>::max();
 
 std::uint32_t corners_of(const Model& model, std::uint32_t piece) {
   return model.piece_start[piece + 1] - model.piece_start[piece];
+}
+
+/// Of a body whose corners are those of its one piece; else 0.
+std::uint16_t corners_of_one_piece(const Model& model, const Body& body) {
+  const std::uint32_t corners = body.corner_end - body.corner_begin;
+  return model.one_piece(body) && corners <= most_summed ? static_cast<std::uint16_t>(corners) : 0;
 }
 
 /// Calls take(body, piece, its piece pair, 0 or 1 for a or b) for the moving bodies of the pairs, in their
@@ -42,11 +51,7 @@ WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers, bool
       may_sleep_(may_sleep) {
   for (std::uint32_t piece = 0; piece + 1 < model.piece_start.size(); ++piece)
     most_corners_ = std::max(most_corners_, corners_of(model, piece));
-  for (const Body& body : model.bodies) {
-    corner_begin_.push_back(body.corner_begin);
-    corner_count_.push_back(model.one_piece(body) ? body.corner_end - body.corner_begin : 0);
-    any_divided_ = any_divided_ || !model.one_piece(body);
-  }
+  for (const Body& body : model.bodies) any_divided_ = any_divided_ || corners_of_one_piece(model, body) == 0;
 }
 
 void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
@@ -61,7 +66,6 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
     make_room_in(entry, piece_pairs.size());
     entry.assign(piece_pairs.size(), nowhere);
   }
-  sum_.clear();
   batch_load_.clear();
   std::uint32_t most = 0;
   for (std::size_t first = 0; first < pairs.size(); first += wave_size_) {
@@ -78,6 +82,7 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
     most = std::max(most, loads);
     list_bodies(model, wave, piece_pairs);
   }
+  place_sums();
   append_to(batch_load_, 0U);
   make_room_in(corner_, most + guard_loads);
   corner_.assign(most, {0, 0});
@@ -90,39 +95,67 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
 void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
                             std::span<const PiecePair> piece_pairs) {
   const std::uint32_t first = wave_bodies_.back();
-  visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t, std::uint32_t, int) {
-    const std::uint32_t before = latest_[body];
+  visit(model, wave, piece_pairs, [&](std::uint32_t number, std::uint32_t, std::uint32_t, int) {
+    const std::uint32_t before = latest_[number];
     if (before == nowhere || before < first) {
-      latest_[body] = static_cast<std::uint32_t>(bodies_.size());
-      append_to(bodies_, {body, 0, 0, 0, corner_begin_[body], corner_count_[body], before != nowhere, false});
-      if (before != nowhere) {
-        if (!bodies_[before].begun) {
-          bodies_[before].sum = static_cast<std::uint32_t>(sum_.size());
-          sum_.resize(sum_.size() + std::max<std::size_t>(corner_count_[body], 4));
-        }
-        bodies_[before].goes_on = true;
-        bodies_.back().sum = bodies_[before].sum;
-      }
+      const Body& body = model.bodies[number];
+      latest_[number] = static_cast<std::uint32_t>(bodies_.size());
+      append_to(bodies_, {number, 0, 0, body.corner_begin, corners_of_one_piece(model, body),
+                          before != nowhere, false});
+      if (before != nowhere) bodies_[before].goes_on = true;
     }
-    ++bodies_[latest_[body]].end;
+    ++bodies_[latest_[number]].begin;
   });
   wave_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size()));
-  auto at = static_cast<std::uint32_t>(first_.size());
-  for (std::size_t i = first; i < bodies_.size(); ++i) {
-    const std::uint32_t count = bodies_[i].end;
-    bodies_[i].begin = bodies_[i].end = at;
-    at += count;
-  }
+  // How many there are says where each begins, and where it goes on while they are listed.
+  const auto first_begin = static_cast<std::uint32_t>(first_.size());
+  std::uint32_t at = first_begin;
+  for (std::size_t i = first; i < bodies_.size(); ++i) at += std::exchange(bodies_[i].begin, at);
   first_.resize(at, no_loads);
   if (any_divided_) piece_.resize(at);
   visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t piece, std::uint32_t p, int side) {
-    const std::uint32_t entry = bodies_[latest_[body]].end++;
+    const std::uint32_t entry = bodies_[latest_[body]].begin++;
     if (any_divided_) piece_[entry] = piece;
     entry_[side][p] = entry;
   });
+  for (std::size_t i = bodies_.size(); i-- > first + 1;) bodies_[i].begin = bodies_[i - 1].begin;
+  if (first < bodies_.size()) bodies_[first].begin = first_begin;
   for (const BodyPair& pair : wave) {
     if (pair.contact_count > 0) gather(model, pair, piece_pairs, true);
   }
+}
+
+/// Few bodies meet others of several waves at once, so few sums are there at a time.
+void WaveLoads::place_sums() {
+  append_to(bodies_, {nowhere, static_cast<std::uint32_t>(first_.size()), 0, 0, 0, false, false});
+  for (auto& sums : free_sums_) sums.clear();
+  std::uint32_t size = 0;
+  for (std::size_t wave = 0; wave < waves(); ++wave) {
+    const std::span<kernels::BodyLoads> bodies =
+        std::span(bodies_).subspan(wave_bodies_[wave], wave_bodies_[wave + 1] - wave_bodies_[wave]);
+    const auto digits = [](const kernels::BodyLoads& body) {
+      return static_cast<std::size_t>(std::bit_width(std::max<std::uint32_t>(body.corner_count, 4) - 1));
+    };
+    for (kernels::BodyLoads& body : bodies) {
+      if (body.corner_count == 0 || !(body.begun || body.goes_on)) continue;
+      if (!body.begun) {
+        std::vector<std::uint32_t>& free = free_sums_[digits(body)];
+        latest_[body.body] = free.empty() ? size : free.back();
+        if (free.empty()) {
+          size += 1U << digits(body);
+        } else {
+          free.pop_back();
+        }
+      }
+      body.sum = latest_[body.body];
+    }
+    // Others may take them from the next wave on.
+    for (const kernels::BodyLoads& body : bodies) {
+      if (body.corner_count > 0 && body.begun && !body.goes_on) append_to(free_sums_[digits(body)], body.sum);
+    }
+  }
+  make_room_in(sum_, size);
+  sum_.resize(size);
 }
 
 void WaveLoads::gather(const Model& model, const BodyPair& pair, std::span<const PiecePair> piece_pairs,
@@ -166,7 +199,7 @@ bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState
     for (std::size_t i = begin; i < end && any_divided_; ++i) {
       const kernels::BodyLoads& gathered = loads.bodies[i];
       if (gathered.corner_count != 0 || (!still.empty() && still[gathered.body] != 0)) continue;
-      for (std::uint32_t at = gathered.begin; at != gathered.end; ++at)
+      for (std::uint32_t at = gathered.begin; at != (&gathered)[1].begin; ++at)
         all += add_piece_loads(model, piece_[at], first_[at], motion);
     }
     if (!std::isfinite(all)) sound.store(false, std::memory_order_relaxed);

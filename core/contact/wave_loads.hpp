@@ -9,6 +9,7 @@
 
 #include <talus/contact_model.hpp>
 
+#include <array>
 #include <atomic>
 #include <span>
 #include <vector>
@@ -61,24 +62,24 @@ class WaveLoads {
   bool written() const { return written_.load(std::memory_order_relaxed); }
   void list_bodies(const Model& model, std::span<const BodyPair> wave,
                    std::span<const PiecePair> piece_pairs);
+  void place_sums();
 
   double add_piece_loads(const Model& model, std::uint32_t piece, std::uint32_t first,
                          MotionState& motion) const;
 
   Workers& workers_;
   const kernels::BlockKernels& kernels_;
-  std::vector<std::uint32_t> corner_begin_;  ///< [body]
-  std::vector<std::uint32_t> corner_count_;  ///< [body] of one that is one convex piece; else 0
-  bool any_divided_ = false;                 ///< whether there are others
-  InLines<CornerLoad> corner_;               ///< and a guard behind them
-  std::vector<std::uint32_t> batch_load_;    ///< [batch of pairs + 1] its first load; not more: a wave begins
-  std::vector<kernels::BodyLoads> bodies_;   ///< wave after wave
+  bool any_divided_ = false;                ///< whether some body is not one convex piece
+  InLines<CornerLoad> corner_;              ///< and a guard behind them
+  std::vector<std::uint32_t> batch_load_;   ///< [batch of pairs + 1] its first load; not more: a wave begins
+  std::vector<kernels::BodyLoads> bodies_;  ///< wave after wave, and one behind them
   std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
   std::vector<std::uint32_t> first_;           ///< [entry] as GatheredLoads::first
   std::vector<std::uint32_t> piece_;           ///< [entry] if any_divided_
   std::vector<std::uint32_t> entry_[2];        ///< [piece pair] of its pieces a and b; or nowhere
-  std::vector<std::uint32_t> latest_;          ///< [body] in bodies_, while they are listed
+  std::vector<std::uint32_t> latest_;          ///< [body] in bodies_, while they are listed; then its sum
   std::vector<CornerLoad> sum_;                ///< of bodies that gather from several waves
+  std::array<std::vector<std::uint32_t>, 17> free_sums_;  ///< [digits of their number of corners, binary]
   std::size_t wave_ = 0;
   std::size_t wave_size_;           ///< pairs
   std::uint32_t most_corners_ = 0;  ///< of a piece

@@ -248,7 +248,7 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     load(&loads.sum[body.sum].x, first);
     load(&loads.sum[body.sum + 2].x, others);
   }
-  const std::uint32_t* const end = loads.first + body.end;
+  const std::uint32_t* const end = loads.first + (&body)[1].begin;
   for (const std::uint32_t* at = loads.first + body.begin; at != end; ++at) {
     const CornerLoad* const from = loads.corner + *at;
     Quad more, more_others;
@@ -289,7 +289,7 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
     for (std::uint32_t i = 0; i < here; ++i) {
       sum[i] = body.begun ? loads.sum[kept + i] : CornerLoad{0, 0};
     }
-    for (std::uint32_t at = body.begin; at != body.end; ++at) {
+    for (std::uint32_t at = body.begin; at != (&body)[1].begin; ++at) {
       const CornerLoad* const from = loads.corner + loads.first[at] + part;
       for (std::uint32_t i = 0; i < here; ++i) {
         sum[i].x += from[i].x;

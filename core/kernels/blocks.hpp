@@ -37,17 +37,17 @@ struct SpeedExtremes {
 /// The loads on one body; where they are not all there are, their sums go on from one time to the next.
 struct BodyLoads {
   std::uint32_t body;
-  std::uint32_t begin, end;  ///< in GatheredLoads::first
-  std::uint32_t sum;         ///< where its sums stand meanwhile, four of them at least
+  std::uint32_t begin;  ///< in GatheredLoads::first, up to where the next body begins
+  std::uint32_t sum;    ///< where its sums stand meanwhile, four of them at least
   std::uint32_t corner_begin;
-  std::uint32_t corner_count;  ///< of a body that is one convex piece; else 0
+  std::uint16_t corner_count;  ///< of a body that is one convex piece of not too many; else 0
   bool begun;                  ///< there were some before
   bool goes_on;                ///< there will be more
 };
 
 /// Loads of contacts, to be gathered by bodies.
 struct GatheredLoads {
-  const BodyLoads* bodies;
+  const BodyLoads* bodies;     ///< and one behind them
   const std::uint32_t* first;  ///< body after body, of each pair the first load on a piece of the body; of
                                ///< zeros where the pair does not touch
   const CornerLoad* corner;    ///< one more may be read than there are
