@@ -92,8 +92,7 @@ class BondFinder {
  public:
   void take(const ContactBatch& batch, const BodyPair& pair) {
     faces_.clear();
-    for (std::uint32_t i = pair.piece_pair_start; i < pair.piece_pair_end; ++i) {
-      const PiecePair& pieces = batch.piece_pairs[i];
+    for (const PiecePair pieces : batch.piece_pairs.of(pair)) {
       const Piece a(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
       const Piece b(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y}, pieces.load_start + a.size());
       faces_.push_back({a, b, 0, 0});

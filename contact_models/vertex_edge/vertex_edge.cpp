@@ -124,11 +124,11 @@ class VertexEdge final : public ContactModel {
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
-    const std::uint32_t entries = pair.piece_pair_end - pair.piece_pair_start;
+    const std::uint32_t entries = pair.piece_pair_count();
     if (work.pieces.size() < entries) work.pieces.resize(entries);
     work.found.clear();
     for (std::uint32_t e = 0; e < entries; ++e) {
-      const PiecePair& pieces = batch.piece_pairs[pair.piece_pair_start + e];
+      const PiecePair pieces = batch.piece_pairs.at(pair, e);
       PiecePairGeometry& geometry = work.pieces[e];
       geometry.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
       geometry.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},

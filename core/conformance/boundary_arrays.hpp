@@ -54,6 +54,7 @@ struct BoundaryArrays {
   std::uint32_t plain_surface(std::uint32_t body) const {
     if (body_piece[body + 1] != body_piece[body] + 1) return internal_side;
     const std::uint32_t begin = piece_start[body_piece[body]], end = piece_start[body_piece[body] + 1];
+    if (end - begin > most_plain_corners) return internal_side;
     for (std::uint32_t c = begin; c < end; ++c) {
       if (corners[c].surface != corners[begin].surface) return internal_side;
     }

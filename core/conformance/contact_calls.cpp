@@ -35,8 +35,8 @@ std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size
   compare("gap", one.gap, other.gap);
   if (found || one.contact_count == 0) return found;
   const BodyPair& pair = batch.pairs[i];
-  for (std::uint32_t k = pair.piece_pair_start; k < pair.piece_pair_end; ++k) {
-    const PiecePair& pieces = batch.piece_pairs[k];
+  const PiecePairs all = batch.all_piece_pairs();
+  for (const PiecePair pieces : all.of(pair)) {
     for (std::uint32_t c = 0; c < batch.corners_of(pieces); ++c) {
       const CornerLoad &here = p.corner[pieces.load_start + c], &there = q.corner[pieces.load_start + c];
       compare("load x", here.x, there.x);
@@ -106,11 +106,11 @@ GivenBatch only(GivenBatch batch, const std::vector<std::uint32_t>& active) {
 
 /// Puts what a call on a part of the pairs gave in its place.
 void merge(const GivenBatch& part, const TakenLoads& from, TakenLoads& to) {
+  const PiecePairs all = part.all_piece_pairs();
   for (const std::uint32_t i : part.active) {
     const BodyPair& pair = part.pairs[i];
     to.pairs[i] = from.pairs[i];
-    for (std::uint32_t k = pair.piece_pair_start; k < pair.piece_pair_end; ++k) {
-      const PiecePair& pieces = part.piece_pairs[k];
+    for (const PiecePair pieces : all.of(pair)) {
       for (std::uint32_t c = pieces.load_start; c < pieces.load_start + part.corners_of(pieces); ++c)
         to.corner[c] = from.corner[c];
     }

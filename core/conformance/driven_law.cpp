@@ -131,21 +131,25 @@ GivenBatch DrivenLaw::given(double dt) {
     const PairState& state = history.try_emplace({a, b}, fresh).first->second;
     BodyPair pair{};
     pair.a = a, pair.b = b;
-    pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs.size());
-    for (std::uint32_t p = arrays.body_piece[a]; p < arrays.body_piece[a + 1]; ++p) {
-      for (std::uint32_t q = arrays.body_piece[b]; q < arrays.body_piece[b + 1]; ++q) {
-        piece_pairs.push_back({p, q, batch.load_count});
-        batch.load_count += batch.corners_of(piece_pairs.back());
-      }
-    }
-    pair.piece_pair_end = static_cast<std::uint32_t>(piece_pairs.size());
     pair.offset_x = other.centre.x - one.centre.x, pair.offset_y = other.centre.y - one.centre.y;
-    pair.master_share = static_cast<float>(master_share);
+    pair.master_halves = static_cast<std::uint16_t>(2 * master_share);
     const std::uint32_t surfaces[] = {arrays.plain_surface(a), arrays.plain_surface(b)};
-    if (plain && surfaces[0] != internal_side && surfaces[1] != internal_side)
-      describe_plain(pair, piece_pairs.back(), arrays.view(),
+    pair.load_start = batch.load_count;
+    if (plain && surfaces[0] != internal_side && surfaces[1] != internal_side) {
+      describe_plain(pair, arrays.body_piece[a], arrays.body_piece[b], arrays.view(),
                      batch.row[surfaces[0] * batch.surface_count + surfaces[1]]);
-    pair.reduced_mass = one.mass * other.mass / (one.mass + other.mass);
+      batch.load_count += pair.plain_corners[0] + pair.plain_corners[1];
+    } else {
+      pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs.size());
+      for (std::uint32_t p = arrays.body_piece[a]; p < arrays.body_piece[a + 1]; ++p) {
+        for (std::uint32_t q = arrays.body_piece[b]; q < arrays.body_piece[b + 1]; ++q) {
+          piece_pairs.push_back({p, q, batch.load_count});
+          batch.load_count += batch.corners_of(piece_pairs.back());
+        }
+      }
+      pair.piece_pair_range[1] = static_cast<std::uint32_t>(piece_pairs.size());
+    }
+    pair.reduced_mass = static_cast<float>(one.mass * other.mass / (one.mass + other.mass));
     pair.slot_start = state.slot_start, pair.slot_capacity = state.capacity;
     pair.contact_count = state.contacts;
     batch.slot_count = next_slot();
@@ -156,6 +160,7 @@ GivenBatch DrivenLaw::given(double dt) {
   }
   batch.pairs = Guarded(span_of(pairs));
   batch.piece_pairs = Guarded(span_of(piece_pairs));
+  batch.first_piece = Guarded(span_of(arrays.body_piece));
   batch.history = Guarded(span_of(kept));
   batch.active.resize(pairs.size(), 0);
   std::iota(batch.active.begin(), batch.active.end(), 0U);
@@ -205,9 +210,10 @@ Evaluation DrivenLaw::evaluate(double dt) {
         result.contacts.push_back(taken.reports[pair.slot_start + c]);
       }
       if (state.contacts == 0) continue;  // then a law need not write its loads
-      for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-        std::uint32_t load = batch.piece_pairs[p].load_start;
-        for (const std::uint32_t piece : {batch.piece_pairs[p].a, batch.piece_pairs[p].b}) {
+      const PiecePairs all = batch.all_piece_pairs();
+      for (const PiecePair pieces : all.of(pair)) {
+        std::uint32_t load = pieces.load_start;
+        for (const std::uint32_t piece : {pieces.a, pieces.b}) {
           for (std::uint32_t c = arrays.piece_start[piece]; c < arrays.piece_start[piece + 1]; ++c, ++load) {
             const Vec2 force{taken.corner[load].x, taken.corner[load].y};
             if (force.x == 0 && force.y == 0) continue;

@@ -13,7 +13,8 @@ void each_array(Batch& p, const GivenBatch& q, const Visit& visit) {
   visit("interfaces.row", p.row, q.row);
   visit("interfaces.value", p.values, q.values);
   visit("pairs", p.pairs, q.pairs);
-  visit("piece_pairs", p.piece_pairs, q.piece_pairs);
+  visit("piece_pairs.listed", p.piece_pairs, q.piece_pairs);
+  visit("piece_pairs.first_piece", p.first_piece, q.first_piece);
   visit("history", p.history, q.history);
   visit("active", p.active, q.active);
 }
@@ -24,7 +25,7 @@ ContactBatch GivenBatch::view() const {
   return {{corners.data(), piece_start.data(), is_strip.data(), clear_depth.data()},
           {row.data(), values.data(), surface_count, parameter_count},
           pairs.data(),
-          piece_pairs.data(),
+          all_piece_pairs(),
           history.data(),
           active.data(),
           static_cast<std::uint32_t>(active.size()),

@@ -22,6 +22,7 @@ struct GivenBatch {
   std::uint32_t surface_count = 1, parameter_count = 0;
   Guarded<BodyPair> pairs;
   Guarded<PiecePair> piece_pairs;
+  Guarded<std::uint32_t> first_piece;
   Guarded<double> history;
   Guarded<std::uint32_t> active;
   double dt = 1e-4;
@@ -31,6 +32,7 @@ struct GivenBatch {
   std::uint64_t layout = 0;
 
   ContactBatch view() const;
+  PiecePairs all_piece_pairs() const { return {piece_pairs.data(), first_piece.data()}; }
   void surround(unsigned char value);
   /// Name of the first array in which a byte differs, guard zones included.
   std::optional<std::string> differs_from(const GivenBatch& other) const;

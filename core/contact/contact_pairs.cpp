@@ -53,14 +53,14 @@ void ContactStage::keep_touching(const Model& model) {
     return std::pair{model.piece_body[candidate.piece_a], model.piece_body[candidate.piece_b]};
   };
   const std::size_t found = candidates_.size();
+  const PiecePairs all = piece_pairs();
   std::size_t k = 0;
   for (const BodyPair& pair : pairs_) {
     if (pair.contact_count == 0) continue;
     const std::pair wanted{pair.a, pair.b};
     while (k < found && bodies_of(candidates_[k]) < wanted) ++k;
     if (k < found && bodies_of(candidates_[k]) == wanted) continue;
-    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p)
-      append_to(candidates_, {piece_pairs_[p].a, piece_pairs_[p].b});
+    for (const PiecePair pieces : all.of(pair)) append_to(candidates_, {pieces.a, pieces.b});
   }
   const auto first = candidates_.begin();
   std::inplace_merge(first, first + static_cast<std::ptrdiff_t>(found), candidates_.end(),
@@ -93,11 +93,16 @@ void ContactStage::rebuild_pairs(const Model& model) {
     return model.piece_body[p.piece_a] == model.piece_body[q.piece_a] &&
            model.piece_body[p.piece_b] == model.piece_body[q.piece_b];
   };
-  std::size_t repeated = 0;
-  for (std::size_t i = 1; i < candidates_.size(); ++i)
-    repeated += same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
+  std::size_t repeated = 0, listed = 0;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    repeated += i > 0 && same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
+    listed += plain_[model.piece_body[candidates_[i].piece_a]] == 0 ||
+                      plain_[model.piece_body[candidates_[i].piece_b]] == 0
+                  ? 1
+                  : 0;
+  }
   make_room_in(pairs_, candidates_.size() - repeated);
-  make_room_in(piece_pairs_, candidates_.size());
+  make_room_in(piece_pairs_, listed);
   for (const auto& [piece_a, piece_b] : candidates_) {
     const std::uint32_t of_a = model.piece_body[piece_a], of_b = model.piece_body[piece_b];
     if (pairs_.empty() || pairs_.back().a != of_a || pairs_.back().b != of_b) {
@@ -108,15 +113,17 @@ void ContactStage::rebuild_pairs(const Model& model) {
                                       : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
       BodyPair pair{};
       pair.a = of_a, pair.b = of_b;
-      pair.piece_pair_start = static_cast<std::uint32_t>(piece_pairs_.size());
-      pair.master_share = static_cast<float>(master_share(of_a, of_b));
+      pair.master_halves = master_halves(of_a, of_b);
       pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
-      pair.reduced_mass = reduced_mass;
+      pair.reduced_mass = static_cast<float>(reduced_mass);
+      pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back(pair);
     }
+    if (plain(pairs_.back())) continue;
     piece_pairs_.push_back({piece_a, piece_b, 0});
-    pairs_.back().piece_pair_end = static_cast<std::uint32_t>(piece_pairs_.size());
+    pairs_.back().piece_pair_range[1] = static_cast<std::uint32_t>(piece_pairs_.size());
   }
+  describe_plain_pairs(model);
   ask_again_.assign(pairs_.size(), 0);
   approach_.assign(pairs_.size(), 0);
 
@@ -146,12 +153,11 @@ void ContactStage::share_anew(const Model& model) {
 /// Of the pairs there are.
 void ContactStage::lay_out_loads(const Model& model) {
   divide_into_batches(pairs_, workers_.threads(), batch_begin_);
-  loads_.lay_out(model, pairs_, batch_begin_, piece_pairs_);
+  loads_.lay_out(model, pairs_, batch_begin_, piece_pairs_, first_piece_);
   if (keeps_stored_) stored_.resize(pairs_.size());
   chunk_totals_.resize((pairs_.size() + pair_chunk - 1) / pair_chunk);
   // Between searches nobody asks for memory: batches are whole chunks.
   if (workers_.threads() > 1) make_room_in(other_batches_, chunk_totals_.size() + 1);
-  describe_plain_pairs(model);
 }
 
 void ContactStage::describe_plain_pairs(const Model& model) {
@@ -159,8 +165,8 @@ void ContactStage::describe_plain_pairs(const Model& model) {
   const auto surface = [&](std::uint32_t body) { return model.surface[model.bodies[body].corner_begin]; };
   for (BodyPair& pair : pairs_) {
     pair.plain_corners[0] = pair.plain_corners[1] = 0;
-    if (plain_[pair.a] == 0 || plain_[pair.b] == 0) continue;
-    describe_plain(pair, piece_pairs_[pair.piece_pair_start], boundaries,
+    if (!plain(pair)) continue;
+    describe_plain(pair, first_piece_[pair.a], first_piece_[pair.b], boundaries,
                    interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
   }
 }

@@ -41,7 +41,7 @@ std::vector<std::uint32_t> alike_surfaces(const Interfaces& interfaces) {
 /// the first stands for all.
 bool is_plain(const Model& model, const Body& body, const std::vector<std::uint32_t>& alike) {
   if (!model.one_piece(body)) return false;
-  if (body.corner_end - body.corner_begin > std::numeric_limits<std::uint16_t>::max()) return false;
+  if (body.corner_end - body.corner_begin > most_plain_corners) return false;
   const auto surface_of = [&](std::uint32_t corner) {
     const std::uint32_t surface = model.surface[corner];
     return surface < alike.size() ? alike[surface] : surface;
@@ -87,7 +87,10 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
                  scene.contact.component->component->interface_parameter_count};
   const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
-  for (const Body& body : model.bodies) plain_.push_back(is_plain(model, body, alike) ? 1 : 0);
+  for (const Body& body : model.bodies) {
+    plain_.push_back(is_plain(model, body, alike) ? 1 : 0);
+    first_piece_.push_back(body.piece_begin);
+  }
   set_interfaces(scene.interface_values);
   refuse_unsound_stiffness(*scene.contact.component);
   if (scene.roles_by_priority) {
@@ -122,11 +125,11 @@ void ContactStage::set_interfaces(const std::vector<std::vector<double>>& values
 }
 
 /// A fixed body is master; between moving bodies both roles count half, or a declared priority decides.
-double ContactStage::master_share(std::uint32_t a, std::uint32_t b) const {
-  if (fixed_[a]) return 1;
+std::uint16_t ContactStage::master_halves(std::uint32_t a, std::uint32_t b) const {
+  if (fixed_[a]) return 2;
   if (fixed_[b]) return 0;
-  if (priority_.empty() || priority_[a] == priority_[b]) return 0.5;
-  return priority_[a] > priority_[b] ? 1 : 0;
+  if (priority_.empty() || priority_[a] == priority_[b]) return 1;
+  return priority_[a] > priority_[b] ? 2 : 0;
 }
 
 ContactTotals ContactStage::evaluate(const Model& model, MotionState& motion, const Conditions& conditions) {
@@ -222,13 +225,14 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
 #ifdef TALUS_AUDIT
     const double poison = std::numeric_limits<double>::quiet_NaN();
     std::fill(found.history.begin(), found.history.end(), poison);
-    for (std::uint32_t i = 0; i < count; ++i) fill_loads(model, pairs_[begin + found.active[i]], poison);
+    for (std::uint32_t i = 0; i < count; ++i)
+      loads_.fill(model, pairs_[begin + found.active[i]], piece_pairs(), poison);
 #endif
     const ContactBatch batch{
         boundaries,
         interfaces_,
         pairs_.data() + begin,
-        piece_pairs_.data(),
+        piece_pairs(),
         slots_.history(slot),
         found.active.data(),
         count,
@@ -271,8 +275,8 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     ChunkTotals& chunk = chunk_totals_[begin / pair_chunk + in_batch];
     kernels::ClosedChunk closed;
     kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
-    for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_[begin + i], piece_pairs_, true);
-    for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_[begin + i], piece_pairs_, false);
+    for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_, piece_pairs(), begin + i, true);
+    for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_, piece_pairs(), begin + i, false);
     for (const std::uint32_t i : closed.short_of_room) {
       note_short_of_room(begin + i, i, found);
       ask_again_[begin + i] = in_this_step;
@@ -305,13 +309,6 @@ ContactTotals ContactStage::totals() const {
     totals.deepest_b = chunk.deepest_b;
   }
   return totals;
-}
-
-void ContactStage::fill_loads(const Model& model, const BodyPair& pair, double value) {
-  loads_.fill(
-      model,
-      std::span(piece_pairs_).subspan(pair.piece_pair_start, pair.piece_pair_end - pair.piece_pair_start),
-      value);
 }
 
 }  // namespace talus

@@ -80,9 +80,7 @@ class ContactStage {
 
   std::uint64_t searches() const { return searches_; }
   std::span<const BodyPair> pairs() const { return pairs_; }
-  std::span<const PiecePair> pieces_of(const BodyPair& pair) const {
-    return {piece_pairs_.data() + pair.piece_pair_start, pair.piece_pair_end - pair.piece_pair_start};
-  }
+  PiecePairs piece_pairs() const { return {piece_pairs_.data(), first_piece_.data()}; }
   /// [contact] of a pair, of a step that was observed.
   std::span<const ContactReport> reports_of(std::size_t pair) const {
     return {slots_.reports(slot_of(pair)), pairs_[pair].contact_count};
@@ -107,6 +105,7 @@ class ContactStage {
   void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
+  bool plain(const BodyPair& pair) const { return plain_[pair.a] != 0 && plain_[pair.b] != 0; }
   bool fits(const Model& model) const;
   void lay_out_slots();
   void size_workspaces();
@@ -161,22 +160,22 @@ class ContactStage {
     return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk()),
                        chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
   }
-  void fill_loads(const Model& model, const BodyPair& pair, double value);
   LawFault runaway() const;
   LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
   double stiffest_interface() const;
   bool sleeps(const BodyPair& pair) const;
   void hold_sleeping_pairs();
   bool wake_touched();
-  double master_share(std::uint32_t a, std::uint32_t b) const;
+  std::uint16_t master_halves(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
   std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
-  std::vector<double> priority_;     ///< [body], empty with symmetric roles
-  std::vector<char> fixed_;          ///< [body]
-  std::vector<char> plain_;          ///< [body] as BodyPair says it
-  std::vector<double> clear_depth_;  ///< [piece] as Boundaries::clear_depth
+  std::vector<double> priority_;            ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;                 ///< [body]
+  std::vector<char> plain_;                 ///< [body] as BodyPair says it
+  std::vector<std::uint32_t> first_piece_;  ///< [body] as PiecePairs says it
+  std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
   double near_;        ///< m, up to which bodies are neighbours
@@ -196,7 +195,7 @@ class ContactStage {
     std::uint32_t a, b, slot_start, slot_capacity, contact_count;
   };
   std::vector<FormerPair> former_pairs_;
-  std::vector<PiecePair> piece_pairs_;
+  std::vector<PiecePair> piece_pairs_;         ///< PiecePairs::listed
   std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
   /// [batch, at least; or empty] what the law keeps of it; not where only some pairs are asked about again
   std::vector<std::unique_ptr<BatchPlan>> plans_;

@@ -22,6 +22,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive(island_);
   if (archive.reading()) {
     if (!fits(model)) Archive::refuse();
+    describe_plain_pairs(model);
     for (BodyPair& pair : pairs_) pair.slot_capacity = pair.contact_count;
     lay_out_loads(model);
   }
@@ -45,14 +46,14 @@ bool ContactStage::fits(const Model& model) const {
   for (const BodyPair& pair : pairs_) {
     if (pair.slot_start != contacts) return false;
     contacts += pair.contact_count;
-    if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size() ||
-        pair.piece_pair_start >= pair.piece_pair_end || pair.piece_pair_end > piece_pairs_.size() ||
-        (plain_[pair.a] != 0 && plain_[pair.b] != 0 && pair.piece_pair_end != pair.piece_pair_start + 1))
-      return false;
+    if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size()) return false;
+    if (plain(pair)) continue;
+    const auto [begin, end] = pair.piece_pair_range;
+    if (begin >= end || end > piece_pairs_.size()) return false;
     const auto of_others = [&](const PiecePair& pieces) {
       return model.piece_body[pieces.a] != pair.a || model.piece_body[pieces.b] != pair.b;
     };
-    if (std::ranges::any_of(pieces_of(pair), of_others)) return false;
+    if (std::ranges::any_of(std::span(piece_pairs_).subspan(begin, end - begin), of_others)) return false;
   }
   return slots_.hold(contacts);
 }

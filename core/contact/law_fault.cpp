@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -44,20 +45,22 @@ LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, c
     const BodyPair& pair = pairs_[chunk_totals_[i].unsound];
     return {"a report that is no number", true, pair.a, pair.b};
   }
+  const PiecePairs all = piece_pairs();
   const auto sum_of = [&](const BodyPair& pair) {
     PairSum sum;
     double first_x = 0, first_y = 0;
-    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-      std::uint32_t load = piece_pairs_[p].load_start;
+    bool first = true;
+    for (const PiecePair pieces : all.of(pair)) {
+      std::uint32_t load = pieces.load_start;
       for (const bool of_b : {false, true}) {
-        const std::uint32_t piece = of_b ? piece_pairs_[p].b : piece_pairs_[p].a;
+        const std::uint32_t piece = of_b ? pieces.b : pieces.a;
         const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
         const std::uint32_t loaded = model.is_strip[piece] != 0 ? begin + 2 : end;
         for (std::uint32_t c = begin; c < end; ++c, ++load) {
           if (c >= loaded) continue;
           const double x = motion.corners[c].x + (of_b ? pair.offset_x : 0);
           const double y = motion.corners[c].y + (of_b ? pair.offset_y : 0);
-          if (p == pair.piece_pair_start && !of_b && c == begin) first_x = x, first_y = y;
+          if (std::exchange(first, false)) first_x = x, first_y = y;
           const auto [fx, fy] = loads_.corner()[load];
           const double arm_x = x - first_x, arm_y = y - first_y;
           sum.x += fx, sum.y += fy, sum.moment += arm_x * fy - arm_y * fx;

@@ -9,8 +9,8 @@ namespace {
 
 /// What a law has to do for a pair, roughly: of those apart it mostly knows without a look.
 std::uint64_t work_of(const BodyPair& pair) {
-  const std::uint64_t of_pieces = pair.contact_count == 0 ? 1 : pair.master_share == 0.5 ? 12 : 10;
-  return of_pieces * (pair.piece_pair_end - pair.piece_pair_start);
+  const std::uint64_t of_pieces = pair.contact_count == 0 ? 1 : pair.master_share() == 0.5 ? 12 : 10;
+  return of_pieces * pair.piece_pair_count();
 }
 
 std::uint64_t work_of_all(std::span<const BodyPair> pairs) {

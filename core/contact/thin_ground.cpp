@@ -56,7 +56,8 @@ std::optional<ThinGround> find_thin_ground(const Model& model, const MotionState
       penetration = std::max(penetration, report.penetration);
     if (penetration == 0) continue;
     const Vec2 frame = model.bodies[pair.a].centre, offset{pair.offset_x, pair.offset_y};
-    for (const auto& [a, b, load_start] : contacts.pieces_of(pair)) {
+    const PiecePairs all = contacts.piece_pairs();
+    for (const auto [a, b, load_start] : all.of(pair)) {
       std::optional<ThinGround> found = ground_of(model, motion, penetration, a, {}, b, offset);
       if (!found) found = ground_of(model, motion, penetration, b, offset, a, {});
       if (!found) continue;

@@ -29,15 +29,24 @@ std::uint16_t corners_of_one_piece(const Model& model, const Body& body) {
   return model.one_piece(body) && corners <= most_summed ? static_cast<std::uint16_t>(corners) : 0;
 }
 
-/// Calls take(body, piece, its piece pair, 0 or 1 for a or b) for the moving bodies of the pairs, in their
+/// Where a piece pair is found that is one of `pairs` pairs, or of those that are listed.
+std::size_t entry_number(std::size_t pairs, const BodyPair& pair, std::size_t number, std::uint32_t i) {
+  return pair.plain() ? number : pairs + pair.piece_pair_range[0] + i;
+}
+
+/// Calls take(body, piece, its entry number, 0 or 1 for a or b) for the moving bodies of some pairs, in their
 /// order.
 template <class Take>
-void visit(const Model& model, std::span<const BodyPair> pairs, std::span<const PiecePair> piece_pairs,
-           const Take& take) {
-  for (const BodyPair& pair : pairs) {
-    for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-      if (model.moves(pair.a)) take(pair.a, piece_pairs[p].a, p, 0);
-      if (model.moves(pair.b)) take(pair.b, piece_pairs[p].b, p, 1);
+void visit(const Model& model, std::span<const BodyPair> pairs, const PiecePairs& piece_pairs,
+           std::size_t begin, std::size_t end, const Take& take) {
+  for (std::size_t number = begin; number < end; ++number) {
+    const BodyPair& pair = pairs[number];
+    const bool a_moves = model.moves(pair.a), b_moves = model.moves(pair.b);
+    for (std::uint32_t i = 0; i < pair.piece_pair_count(); ++i) {
+      const PiecePair pieces = piece_pairs.at(pair, i);
+      const std::size_t entry = entry_number(pairs.size(), pair, number, i);
+      if (a_moves) take(pair.a, pieces.a, entry, 0);
+      if (b_moves) take(pair.b, pieces.b, entry, 1);
     }
   }
 }
@@ -54,33 +63,39 @@ WaveLoads::WaveLoads(const Model& model, SimdLevel level, Workers& workers, bool
   for (const Body& body : model.bodies) any_divided_ = any_divided_ || corners_of_one_piece(model, body) == 0;
 }
 
-void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
-                        std::span<const std::uint32_t> batch_begin, std::span<PiecePair> piece_pairs) {
+void WaveLoads::lay_out(const Model& model, std::span<BodyPair> pairs,
+                        std::span<const std::uint32_t> batch_begin, std::span<PiecePair> piece_pairs,
+                        std::span<const std::uint32_t> first_piece) {
+  const std::size_t entries = pairs.size() + piece_pairs.size();
   latest_.assign(model.bodies.size(), nowhere);
   wave_bodies_.assign(1, 0);
   bodies_.clear();
   first_.clear();
-  make_room_in(first_, 2 * piece_pairs.size());
-  if (any_divided_) make_room_in(piece_, 2 * piece_pairs.size());
+  make_room_in(first_, 2 * entries);
+  if (any_divided_) make_room_in(piece_, 2 * entries);
   for (auto& entry : entry_) {
-    make_room_in(entry, piece_pairs.size());
-    entry.assign(piece_pairs.size(), nowhere);
+    make_room_in(entry, entries);
+    entry.assign(entries, nowhere);
   }
   batch_load_.clear();
   std::uint32_t most = 0;
   for (std::size_t first = 0; first < pairs.size(); first += wave_size_) {
-    const std::span<const BodyPair> wave = pairs.subspan(first, std::min(wave_size_, pairs.size() - first));
+    const std::size_t end = std::min(first + wave_size_, pairs.size());
     std::uint32_t loads = most_corners_;  // what stands before them are zeros
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-      if (first + i == batch_begin[batch_load_.size()]) append_to(batch_load_, loads);
+    for (std::size_t i = first; i < end; ++i) {
+      BodyPair& pair = pairs[i];
+      if (i == batch_begin[batch_load_.size()]) append_to(batch_load_, loads);
       loads = (loads + corners_of_line - 1) / corners_of_line * corners_of_line;
-      for (std::uint32_t p = wave[i].piece_pair_start; p < wave[i].piece_pair_end; ++p) {
-        piece_pairs[p].load_start = loads;
-        loads += corners_of(model, piece_pairs[p].a) + corners_of(model, piece_pairs[p].b);
+      pair.load_start = loads;
+      if (pair.plain()) loads += pair.plain_corners[0] + pair.plain_corners[1];
+      for (std::uint32_t k = 0; k < pair.piece_pair_count() && !pair.plain(); ++k) {
+        PiecePair& pieces = piece_pairs[pair.piece_pair_range[0] + k];
+        pieces.load_start = loads;
+        loads += corners_of(model, pieces.a) + corners_of(model, pieces.b);
       }
     }
     most = std::max(most, loads);
-    list_bodies(model, wave, piece_pairs);
+    list_bodies(model, pairs, {piece_pairs.data(), first_piece.data()}, first, end);
   }
   place_sums();
   append_to(batch_load_, 0U);
@@ -92,10 +107,10 @@ void WaveLoads::lay_out(const Model& model, std::span<const BodyPair> pairs,
 }
 
 /// So that each body can gather its loads, pair after pair, whoever evaluated the pairs.
-void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
-                            std::span<const PiecePair> piece_pairs) {
+void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> pairs,
+                            const PiecePairs& piece_pairs, std::size_t begin, std::size_t end) {
   const std::uint32_t first = wave_bodies_.back();
-  visit(model, wave, piece_pairs, [&](std::uint32_t number, std::uint32_t, std::uint32_t, int) {
+  visit(model, pairs, piece_pairs, begin, end, [&](std::uint32_t number, std::uint32_t, std::size_t, int) {
     const std::uint32_t before = latest_[number];
     if (before == nowhere || before < first) {
       const Body& body = model.bodies[number];
@@ -113,15 +128,16 @@ void WaveLoads::list_bodies(const Model& model, std::span<const BodyPair> wave,
   for (std::size_t i = first; i < bodies_.size(); ++i) at += std::exchange(bodies_[i].begin, at);
   first_.resize(at, no_loads);
   if (any_divided_) piece_.resize(at);
-  visit(model, wave, piece_pairs, [&](std::uint32_t body, std::uint32_t piece, std::uint32_t p, int side) {
+  const auto list = [&](std::uint32_t body, std::uint32_t piece, std::size_t number, int side) {
     const std::uint32_t entry = bodies_[latest_[body]].begin++;
     if (any_divided_) piece_[entry] = piece;
-    entry_[side][p] = entry;
-  });
+    entry_[side][number] = entry;
+  };
+  visit(model, pairs, piece_pairs, begin, end, list);
   for (std::size_t i = bodies_.size(); i-- > first + 1;) bodies_[i].begin = bodies_[i - 1].begin;
   if (first < bodies_.size()) bodies_[first].begin = first_begin;
-  for (const BodyPair& pair : wave) {
-    if (pair.contact_count > 0) gather(model, pair, piece_pairs, true);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (pairs[i].contact_count > 0) gather(model, pairs, piece_pairs, i, true);
   }
 }
 
@@ -158,12 +174,14 @@ void WaveLoads::place_sums() {
   sum_.resize(size);
 }
 
-void WaveLoads::gather(const Model& model, const BodyPair& pair, std::span<const PiecePair> piece_pairs,
-                       bool touching) {
-  for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-    const std::uint32_t of_a = piece_pairs[p].load_start, of_b = of_a + corners_of(model, piece_pairs[p].a);
-    if (entry_[0][p] != nowhere) first_[entry_[0][p]] = touching ? of_a : no_loads;
-    if (entry_[1][p] != nowhere) first_[entry_[1][p]] = touching ? of_b : no_loads;
+void WaveLoads::gather(const Model& model, std::span<const BodyPair> pairs, const PiecePairs& piece_pairs,
+                       std::size_t pair, bool touching) {
+  for (std::uint32_t i = 0; i < pairs[pair].piece_pair_count(); ++i) {
+    const PiecePair pieces = piece_pairs.at(pairs[pair], i);
+    const std::uint32_t of_a = pieces.load_start, of_b = of_a + corners_of(model, pieces.a);
+    const std::size_t number = entry_number(pairs.size(), pairs[pair], pair, i);
+    if (entry_[0][number] != nowhere) first_[entry_[0][number]] = touching ? of_a : no_loads;
+    if (entry_[1][number] != nowhere) first_[entry_[1][number]] = touching ? of_b : no_loads;
   }
 }
 
@@ -181,9 +199,9 @@ void WaveLoads::prepare(std::size_t batch) {
   std::fill(corner() + begin, corner() + end, CornerLoad{0, 0});
 }
 
-void WaveLoads::fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value) {
-  const PiecePair& last = pieces_of_pair.back();
-  const std::uint32_t begin = pieces_of_pair.front().load_start;
+void WaveLoads::fill(const Model& model, const BodyPair& pair, const PiecePairs& piece_pairs, double value) {
+  const PiecePair last = piece_pairs.at(pair, pair.piece_pair_count() - 1);
+  const std::uint32_t begin = piece_pairs.at(pair, 0).load_start;
   const std::uint32_t end = last.load_start + corners_of(model, last.a) + corners_of(model, last.b);
   std::fill(corner() + begin, corner() + end, CornerLoad{value, value});
 }

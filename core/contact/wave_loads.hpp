@@ -23,9 +23,10 @@ class WaveLoads {
   /// `may_sleep`: whether pairs in contact may stay unasked.
   WaveLoads(const Model& model, SimdLevel level, Workers& workers, bool may_sleep);
 
-  /// Gives all pieces of the pairs their PiecePair::load_start. `batch_begin` as divide_into_batches() says.
-  void lay_out(const Model& model, std::span<const BodyPair> pairs,
-               std::span<const std::uint32_t> batch_begin, std::span<PiecePair> piece_pairs);
+  /// Gives all piece pairs their load_start. `batch_begin` as divide_into_batches() says, `piece_pairs` and
+  /// `first_piece` as PiecePairs.
+  void lay_out(const Model& model, std::span<BodyPair> pairs, std::span<const std::uint32_t> batch_begin,
+               std::span<PiecePair> piece_pairs, std::span<const std::uint32_t> first_piece);
 
   std::size_t waves() const { return wave_bodies_.size() - 1; }
 
@@ -35,10 +36,10 @@ class WaveLoads {
   void prepare(std::size_t batch);
   /// From now on bodies gather what stands at the pieces of a pair, or nothing. Any thread, each pair by one.
   /// After lay_out() they gather from the pairs that were in contact.
-  void gather(const Model& model, const BodyPair& pair, std::span<const PiecePair> piece_pairs,
-              bool touching);
+  void gather(const Model& model, std::span<const BodyPair> pairs, const PiecePairs& piece_pairs,
+              std::size_t pair, bool touching);
   /// Sets all loads of a pair, N/m.
-  void fill(const Model& model, std::span<const PiecePair> pieces_of_pair, double value);
+  void fill(const Model& model, const BodyPair& pair, const PiecePairs& piece_pairs, double value);
   /// Makes all loads zero as the next waves begin.
   void renew() { renewed_ = true; }
   /// Says that a law may write some. Any thread.
@@ -60,8 +61,8 @@ class WaveLoads {
 
  private:
   bool written() const { return written_.load(std::memory_order_relaxed); }
-  void list_bodies(const Model& model, std::span<const BodyPair> wave,
-                   std::span<const PiecePair> piece_pairs);
+  void list_bodies(const Model& model, std::span<const BodyPair> pairs, const PiecePairs& piece_pairs,
+                   std::size_t begin, std::size_t end);
   void place_sums();
 
   double add_piece_loads(const Model& model, std::uint32_t piece, std::uint32_t first,
@@ -76,7 +77,7 @@ class WaveLoads {
   std::vector<std::uint32_t> wave_bodies_{0};  ///< [wave + 1] in bodies_
   std::vector<std::uint32_t> first_;           ///< [entry] as GatheredLoads::first
   std::vector<std::uint32_t> piece_;           ///< [entry] if any_divided_
-  std::vector<std::uint32_t> entry_[2];        ///< [piece pair] of its pieces a and b; or nowhere
+  std::vector<std::uint32_t> entry_[2];        ///< [entry_number()] of pieces a and b; or nowhere
   std::vector<std::uint32_t> latest_;          ///< [body] in bodies_, while they are listed; then its sum
   std::vector<CornerLoad> sum_;                ///< of bodies that gather from several waves
   std::array<std::vector<std::uint32_t>, 17> free_sums_;  ///< [digits of their number of corners, binary]

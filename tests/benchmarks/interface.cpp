@@ -54,7 +54,7 @@ class RecordedStep {
       batch.interfaces.row = rows_.data();
       batch.interfaces.value = values_.data();
       batch.pairs = each.pairs.data();
-      batch.piece_pairs = piece_pairs_.data();
+      batch.piece_pairs = {piece_pairs_.data(), first_piece_.data()};
       batch.history = each.history.data();
       batch.active = each.active.data();
       result.push_back(
@@ -96,13 +96,13 @@ class RecordedStep {
   void copy_arrays(Batch& batch) {
     const Boundaries& shown = batch.as_given.boundaries;
     const Interfaces& interfaces = batch.as_given.interfaces;
-    std::size_t pieces = 0, piece_pairs = 0, slots = 0;
+    std::size_t bodies = 0, pieces = 0, piece_pairs = 0, slots = 0;
     for (const std::uint32_t i : batch.active) {
       const BodyPair& pair = batch.pairs[i];
-      piece_pairs = std::max<std::size_t>(piece_pairs, pair.piece_pair_end);
+      bodies = std::max<std::size_t>({bodies, pair.a + 1, pair.b + 1});
+      if (!pair.plain()) piece_pairs = std::max<std::size_t>(piece_pairs, pair.piece_pair_range[1]);
       slots = std::max<std::size_t>(slots, pair.slot_start + pair.slot_capacity);
-      for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-        const PiecePair& met = batch.as_given.piece_pairs[p];
+      for (const PiecePair met : batch.as_given.piece_pairs.of(pair)) {
         pieces = std::max<std::size_t>({pieces, met.a + 1, met.b + 1});
         const auto corners = [&](std::uint32_t piece) {
           return shown.piece_start[piece + 1] - shown.piece_start[piece];
@@ -110,7 +110,8 @@ class RecordedStep {
         loads_ = std::max<std::size_t>(loads_, met.load_start + corners(met.a) + corners(met.b));
       }
     }
-    copy_up_to(piece_pairs_, batch.as_given.piece_pairs, piece_pairs);
+    copy_up_to(piece_pairs_, batch.as_given.piece_pairs.listed, piece_pairs);
+    copy_up_to(first_piece_, batch.as_given.piece_pairs.first_piece, bodies);
     copy_up_to(piece_start_, shown.piece_start, pieces + 1);
     copy_up_to(corners_, shown.corner, shown.piece_start[pieces]);
     copy_up_to(is_strip_, shown.is_strip, pieces);
@@ -130,6 +131,7 @@ class RecordedStep {
   std::vector<Batch> batches_;
   std::vector<BoundaryCorner> corners_;
   std::vector<PiecePair> piece_pairs_;
+  std::vector<std::uint32_t> first_piece_;
   std::vector<std::uint32_t> piece_start_, rows_;
   std::vector<std::uint8_t> is_strip_;
   std::vector<double> clear_depth_, values_;

@@ -24,8 +24,7 @@ class Tally final : public ContactModel {
       const BodyPair& pair = batch.pairs[i];
       loads.pairs[i] = {};
       loads.pairs[i].contact_count = contacts;
-      for (std::uint32_t p = pair.piece_pair_start; p < pair.piece_pair_end; ++p) {
-        const PiecePair& pieces = batch.piece_pairs[p];
+      for (const PiecePair pieces : batch.piece_pairs.of(pair)) {
         const std::uint32_t* start = batch.boundaries.piece_start;
         const std::uint32_t corners =
             start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];

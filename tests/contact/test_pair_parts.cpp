@@ -12,8 +12,8 @@ namespace {
 std::vector<BodyPair> pairs_touching_from(std::size_t first, std::size_t count) {
   std::vector<BodyPair> pairs(count);
   for (std::size_t i = 0; i < count; ++i) {
-    pairs[i].piece_pair_start = static_cast<std::uint32_t>(i);
-    pairs[i].piece_pair_end = pairs[i].piece_pair_start + 1;
+    pairs[i].piece_pair_range[0] = static_cast<std::uint32_t>(i);
+    pairs[i].piece_pair_range[1] = pairs[i].piece_pair_range[0] + 1;
     pairs[i].contact_count = i < first ? 0 : 1;
   }
   return pairs;

@@ -20,7 +20,7 @@ class Misbehaving : public SilentLaw {
       talus::PairReport& report = loads.pairs[batch.active[k]];
       report = {};
       report.contact_count = 1;
-      const talus::PiecePair& pieces = batch.piece_pairs[pair.piece_pair_start];
+      const talus::PiecePair pieces = batch.piece_pairs.at(pair, 0);
       const std::uint32_t* start = batch.boundaries.piece_start;
       const std::uint32_t of_b = pieces.load_start + start[pieces.a + 1] - start[pieces.a];
       const std::uint32_t end = of_b + start[pieces.b + 1] - start[pieces.b];

@@ -48,31 +48,73 @@ struct PiecePair {
 };
 
 /// Two bodies that are close enough to touch, or twice the same one that touches itself. The frame of a pair
-/// is the frame of body a.
+/// is the frame of body a. One line of a cache.
 struct BodyPair {
   std::uint32_t a;
   std::uint32_t b;
-  std::uint32_t piece_pair_start;  ///< its piece pairs are [piece_pair_start, piece_pair_end)
-  std::uint32_t piece_pair_end;
-  float master_share;   ///< share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles)
-  float clear_depth;    ///< m, of plain bodies: the lesser of Boundaries::clear_depth, or a little less
-  double offset_x;      ///< m, added to a position of body b gives it in the frame of body a
-  double offset_y;      ///< m
-  double reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
-                        ///< fixed; a body of many elements counts by a patch of its boundary
+  double offset_x;     ///< m, added to a position of body b gives it in the frame of body a
+  double offset_y;     ///< m
+  float reduced_mass;  ///< kg per metre of thickness: m_a m_b/(m_a + m_b); the mass of one if the other is
+                       ///< fixed; a body of many elements counts by a patch of its boundary
+  float clear_depth;   ///< m, of plain bodies: the lesser of Boundaries::clear_depth, or a little less
   std::uint32_t slot_start;     ///< first contact slot of this pair
   std::uint32_t slot_capacity;  ///< how many contacts it can hold; 0 until it has some
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
-  std::uint16_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
-                                   ///< surface class all around; else 0, and what follows says nothing
+  std::uint8_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
+                                  ///< surface class all around; else 0
+  std::uint16_t master_halves;    ///< see master_share()
 
   // What laws look up for every pair of plain bodies, from the arrays that hold it for all.
-  std::uint32_t corner_start[2];  ///< first corner of a and of b in Boundaries::corner
-  std::uint32_t load_start;       ///< PiecePair::load_start of their pieces
-  std::uint32_t interface_row;    ///< Interfaces::row of their surfaces
+  union {
+    std::uint32_t corner_start[2];      ///< plain: first corner of a and of b in Boundaries::corner
+    std::uint32_t piece_pair_range[2];  ///< others: their piece pairs, from PiecePairs::listed[0] up to [1]
+  };
+  std::uint32_t load_start;     ///< plain: PiecePair::load_start of their pieces
+  std::uint32_t interface_row;  ///< plain: Interfaces::row of their surfaces
 
   bool plain() const { return plain_corners[0] != 0; }
+  std::uint32_t piece_pair_count() const { return plain() ? 1 : piece_pair_range[1] - piece_pair_range[0]; }
+  /// Share of body a as master: 1 (b is slave), 0 (a is slave), 0.5 (both roles).
+  double master_share() const { return 0.5 * master_halves; }
+};
+static_assert(sizeof(BodyPair) == 64);
+
+/// The piece pairs of all pairs: of plain bodies the one there is follows from the bodies.
+struct PiecePairs {
+  const PiecePair* listed;           ///< of pairs that are not plain
+  const std::uint32_t* first_piece;  ///< [body]
+
+  PiecePair at(const BodyPair& pair, std::uint32_t i) const {
+    if (pair.plain()) return {first_piece[pair.a], first_piece[pair.b], pair.load_start};
+    return listed[pair.piece_pair_range[0] + i];
+  }
+
+  /// For loops over those of one pair.
+  class OfPair {
+   public:
+    struct Iterator {
+      const PiecePairs& all;
+      const BodyPair& pair;
+      std::uint32_t number;
+
+      PiecePair operator*() const { return all.at(pair, number); }
+      Iterator& operator++() {
+        ++number;
+        return *this;
+      }
+      bool operator!=(const Iterator& other) const { return number != other.number; }
+    };
+
+    OfPair(const PiecePairs& all, const BodyPair& pair) : all_(all), pair_(pair) {}
+    Iterator begin() const { return {all_, pair_, 0}; }
+    Iterator end() const { return {all_, pair_, pair_.piece_pair_count()}; }
+
+   private:
+    const PiecePairs& all_;
+    const BodyPair& pair_;
+  };
+  OfPair of(const BodyPair& pair) const { return {*this, pair}; }
 };
 
 /// What a law keeps of a batch of pairs from step to step, such as which of them it evaluates side by side:
@@ -91,7 +133,7 @@ struct ContactBatch {
   Boundaries boundaries;
   Interfaces interfaces;
   const BodyPair* pairs;
-  const PiecePair* piece_pairs;
+  PiecePairs piece_pairs;
   const double* history;        ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
   const std::uint32_t* active;  ///< [active_count] the pairs to evaluate, as indices into `pairs`, rising
   std::uint32_t active_count;
@@ -104,18 +146,20 @@ struct ContactBatch {
   std::uint64_t layout = 0;
 };
 
-/// Says of a pair of plain bodies what BodyPair repeats. Both have one piece, of at most 65,535 corners.
-inline void describe_plain(BodyPair& pair, const PiecePair& pieces, const Boundaries& boundaries,
-                           std::uint32_t interface_row) {
-  const std::uint32_t piece[2] = {pieces.a, pieces.b};
+/// Corners of a plain body, at most.
+inline constexpr std::uint32_t most_plain_corners = 255;
+
+/// Says of a pair of plain bodies, each of one of two pieces, what BodyPair repeats.
+inline void describe_plain(BodyPair& pair, std::uint32_t piece_a, std::uint32_t piece_b,
+                           const Boundaries& boundaries, std::uint32_t interface_row) {
+  const std::uint32_t piece[2] = {piece_a, piece_b};
   for (int i = 0; i < 2; ++i) {
     const std::uint32_t start = boundaries.piece_start[piece[i]];
     pair.corner_start[i] = start;
-    pair.plain_corners[i] = static_cast<std::uint16_t>(boundaries.piece_start[piece[i] + 1] - start);
+    pair.plain_corners[i] = static_cast<std::uint8_t>(boundaries.piece_start[piece[i] + 1] - start);
   }
-  pair.load_start = pieces.load_start;
   pair.interface_row = interface_row;
-  const double depth_a = boundaries.clear_depth[pieces.a], depth_b = boundaries.clear_depth[pieces.b];
+  const double depth_a = boundaries.clear_depth[piece_a], depth_b = boundaries.clear_depth[piece_b];
   constexpr double below = 1 - 1e-7;  // whichever way it is rounded
   pair.clear_depth = static_cast<float>(below * (depth_a < depth_b ? depth_a : depth_b));
 }

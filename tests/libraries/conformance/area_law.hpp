@@ -96,8 +96,7 @@ class AreaLaw : public talus::ContactModel {
   static void each_overlap(const ContactBatch& batch, const BodyPair& pair, const Visit& visit) {
     talus::overlap::Clipper clipper;
     talus::overlap::Polygon polygon;
-    for (std::uint32_t k = pair.piece_pair_start; k < pair.piece_pair_end; ++k) {
-      const talus::PiecePair& pieces = batch.piece_pairs[k];
+    for (const talus::PiecePair pieces : batch.piece_pairs.of(pair)) {
       const Piece a(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
       const Piece b(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y}, pieces.load_start + a.size());
       polygon.clear();

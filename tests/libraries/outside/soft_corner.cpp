@@ -64,8 +64,7 @@ class SoftCorner final : public talus::ContactModel {
       const std::uint32_t i = batch.active[k];
       const talus::BodyPair& pair = batch.pairs[i];
       loads.pairs[i] = {};
-      for (std::uint32_t j = pair.piece_pair_start; j < pair.piece_pair_end; ++j) {
-        const talus::PiecePair& pieces = batch.piece_pairs[j];
+      for (const talus::PiecePair pieces : batch.piece_pairs.of(pair)) {
         const std::uint32_t* start = batch.boundaries.piece_start;
         const Piece a{batch.boundaries, start[pieces.a], start[pieces.a + 1], 0, 0, pieces.load_start};
         const Piece b{batch.boundaries, start[pieces.b], start[pieces.b + 1],

@@ -94,7 +94,7 @@ class DistributedContact {
       normal_on_b_ = {0, 0};
       penetration_ = 0;
       for (std::uint32_t master = 0; master < 2; ++master) {
-        const double share = master == 0 ? pair.master_share : 1 - pair.master_share;
+        const double share = master == 0 ? pair.master_share() : 1 - pair.master_share();
         if (share > 0) normal_loads(law, batch.interfaces, sink, g, master, share, report);
       }
       report.penetration = std::max(report.penetration, penetration_);
@@ -337,7 +337,7 @@ class DistributedContact {
     if (contact_length_ == 0) return;
     for (Cell& cell : cells_) {
       if (cell.interface.normal_damping == 0) continue;
-      const double share = cell.master == 0 ? pair.master_share : 1 - pair.master_share;
+      const double share = cell.master == 0 ? pair.master_share() : 1 - pair.master_share();
       const double viscosity =
           share * 2 * cell.interface.normal_damping *
           std::sqrt(cell.interface.normal_stiffness * pair.reduced_mass / contact_length_);

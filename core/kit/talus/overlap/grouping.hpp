@@ -28,8 +28,7 @@ class OverlapGroups {
  public:
   std::uint32_t find(const ContactBatch& batch, const BodyPair& pair) {
     count_ = 0;
-    for (std::uint32_t i = pair.piece_pair_start; i < pair.piece_pair_end; ++i) {
-      const PiecePair& pieces = batch.piece_pairs[i];
+    for (const PiecePair pieces : batch.piece_pairs.of(pair)) {
       if (count_ == pool_.size()) pool_.emplace_back();
       Overlap& overlap = pool_[count_];
       overlap.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);

@@ -127,8 +127,8 @@ class LaneContact {
   }
 
   void add_touching(const BodyPair& pair, TouchingPair touching) {
-    const bool averaged = pair.master_share == 0.5;
-    const int master = pair.master_share == 0 ? 1 : 0;
+    const bool averaged = pair.master_share() == 0.5;
+    const int master = pair.master_share() == 0 ? 1 : 0;
     const std::uint32_t shape =
         (pair.plain_corners[master] == 3 ? 1 : 0) + (pair.plain_corners[1 - master] == 3 ? 2 : 0);
     touching.code += shape * TouchingPair::shape_unit;

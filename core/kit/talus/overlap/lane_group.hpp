@@ -35,7 +35,7 @@ struct TouchingPair {
   std::uint32_t shape() const { return code / shape_unit & 3; }
   std::uint32_t start(int body) const { return (code - 1) >> 3 * body & 7; }
   bool unseen() const { return code >= unseen_bit; }
-  bool averaged(const ContactBatch& batch) const { return batch.pairs[pair].master_share == 0.5; }
+  bool averaged(const ContactBatch& batch) const { return batch.pairs[pair].master_share() == 0.5; }
 };
 
 using LaneBits = std::uint32_t;  ///< bit i says lane i
@@ -89,7 +89,7 @@ struct LaneGroup {
     const BodyPair& at = batch.pairs[touching.pair];
     for (int p = 0; p < 2; ++p) {
       if (sides[p] != mixed &&
-          at.plain_corners[at.master_share == 0 ? 1 - p : p] != static_cast<std::uint32_t>(sides[p]))
+          at.plain_corners[at.master_share() == 0 ? 1 - p : p] != static_cast<std::uint32_t>(sides[p]))
         return false;
     }
     place(batch, touching, std::countr_one(live));
@@ -113,7 +113,7 @@ struct LaneGroup {
  private:
   void place(const ContactBatch& batch, const TouchingPair& touching, int lane) {
     const BodyPair& at = batch.pairs[touching.pair];
-    const bool swap = at.master_share == 0;
+    const bool swap = at.master_share() == 0;
     const auto mark = [&](LaneBits& bits, bool is_so) {
       bits = (bits & ~(1u << lane)) | (is_so ? 1u : 0u) << lane;
     };

@@ -112,8 +112,7 @@ struct LoadSink {
 
   /// All corners of a pair's pieces free of load.
   void clear(const ContactBatch& batch, const BodyPair& pair) const {
-    for (std::uint32_t i = pair.piece_pair_start; i < pair.piece_pair_end; ++i) {
-      const PiecePair& pieces = batch.piece_pairs[i];
+    for (const PiecePair pieces : batch.piece_pairs.of(pair)) {
       const std::uint32_t* start = batch.boundaries.piece_start;
       const std::uint32_t count =
           start[pieces.a + 1] - start[pieces.a] + start[pieces.b + 1] - start[pieces.b];

@@ -29,7 +29,7 @@ struct Outcome {
 class TwoBodies {
  public:
   double dt = 1e-4;            ///< s
-  double master_share = 0.5;   ///< of body a
+  double master_share = 0.5;   ///< of body a: 0, 0.5 or 1
   double reduced_mass = 1000;  ///< kg per metre of thickness
   bool hold_stick = false, bonds_form = false;
 
@@ -60,18 +60,17 @@ class TwoBodies {
     history_.resize(std::size_t{capacity} * doubles);
     BodyPair pair{};
     pair.b = 1;
-    pair.piece_pair_end = 1;
-    pair.master_share = static_cast<float>(master_share);
-    pair.reduced_mass = reduced_mass;
+    pair.master_halves = static_cast<std::uint16_t>(2 * master_share);
+    pair.reduced_mass = static_cast<float>(reduced_mass);
     pair.slot_capacity = capacity;
     pair.contact_count = contacts_;
-    const PiecePair pieces{0, 1, 0};
+    const std::uint32_t first_piece[2] = {0, 1};
     const Boundaries boundaries{corners_.data(), piece_start_.data(), strips, clear_depth};
-    describe_plain(pair, pieces, boundaries, row);
+    describe_plain(pair, 0, 1, boundaries, row);
     const ContactBatch batch{boundaries,
                              {&row, interface.data(), 1, static_cast<std::uint32_t>(interface.size())},
                              &pair,
-                             &pieces,
+                             {nullptr, first_piece},
                              history_.data(),
                              &active,
                              1,
