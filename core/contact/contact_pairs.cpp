@@ -96,10 +96,8 @@ void ContactStage::rebuild_pairs(const Model& model) {
   std::size_t repeated = 0, listed = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     repeated += i > 0 && same_bodies(candidates_[i - 1], candidates_[i]) ? 1 : 0;
-    listed += plain_[model.piece_body[candidates_[i].piece_a]] == 0 ||
-                      plain_[model.piece_body[candidates_[i].piece_b]] == 0
-                  ? 1
-                  : 0;
+    const auto& [piece_a, piece_b] = candidates_[i];
+    listed += plain(model.piece_body[piece_a], model.piece_body[piece_b]) ? 0 : 1;
   }
   make_room_in(pairs_, candidates_.size() - repeated);
   make_room_in(piece_pairs_, listed);
@@ -119,7 +117,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
       pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back(pair);
     }
-    if (plain(pairs_.back())) continue;
+    if (plain(of_a, of_b)) continue;
     piece_pairs_.push_back({piece_a, piece_b, 0});
     pairs_.back().piece_pair_range[1] = static_cast<std::uint32_t>(piece_pairs_.size());
   }
@@ -162,12 +160,13 @@ void ContactStage::lay_out_loads(const Model& model) {
 
 void ContactStage::describe_plain_pairs(const Model& model) {
   const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data()};
-  const auto surface = [&](std::uint32_t body) { return model.surface[model.bodies[body].corner_begin]; };
   for (BodyPair& pair : pairs_) {
     pair.plain_corners[0] = pair.plain_corners[1] = 0;
-    if (!plain(pair)) continue;
-    describe_plain(pair, first_piece_[pair.a], first_piece_[pair.b], boundaries,
-                   interfaces_.row[surface(pair.a) * interfaces_.surface_count + surface(pair.b)]);
+    if (!plain(pair.a, pair.b)) continue;
+    describe_plain(
+        pair, first_piece_[pair.a], first_piece_[pair.b], boundaries,
+        interfaces_
+            .row[std::size_t{plain_surface_[pair.a]} * interfaces_.surface_count + plain_surface_[pair.b]]);
   }
 }
 

@@ -37,19 +37,19 @@ std::vector<std::uint32_t> alike_surfaces(const Interfaces& interfaces) {
   return alike;
 }
 
-/// Whether laws may take it for one convex piece of one surface class all around: of several that are alike,
-/// the first stands for all.
-bool is_plain(const Model& model, const Body& body, const std::vector<std::uint32_t>& alike) {
-  if (!model.one_piece(body)) return false;
-  if (body.corner_end - body.corner_begin > most_plain_corners) return false;
+/// The surface class of a body that laws may take for one convex piece of one class all around, or
+/// internal_side: of several that are alike, the first stands for all.
+std::uint32_t plain_surface(const Model& model, const Body& body, const std::vector<std::uint32_t>& alike) {
+  if (!model.one_piece(body)) return internal_side;
+  if (body.corner_end - body.corner_begin > most_plain_corners) return internal_side;
   const auto surface_of = [&](std::uint32_t corner) {
     const std::uint32_t surface = model.surface[corner];
     return surface < alike.size() ? alike[surface] : surface;
   };
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-    if (surface_of(c) != surface_of(body.corner_begin) || model.surface[c] == internal_side) return false;
+    if (surface_of(c) != surface_of(body.corner_begin)) return internal_side;
   }
-  return true;
+  return model.surface[body.corner_begin];
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
                  scene.contact.component->component->interface_parameter_count};
   const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
   for (const Body& body : model.bodies) {
-    plain_.push_back(is_plain(model, body, alike) ? 1 : 0);
+    plain_surface_.push_back(plain_surface(model, body, alike));
     first_piece_.push_back(body.piece_begin);
   }
   set_interfaces(scene.interface_values);

@@ -105,7 +105,9 @@ class ContactStage {
   void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
-  bool plain(const BodyPair& pair) const { return plain_[pair.a] != 0 && plain_[pair.b] != 0; }
+  bool plain(std::uint32_t a, std::uint32_t b) const {
+    return plain_surface_[a] != internal_side && plain_surface_[b] != internal_side;
+  }
   bool fits(const Model& model) const;
   void lay_out_slots();
   void size_workspaces();
@@ -171,9 +173,10 @@ class ContactStage {
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
   std::vector<double> interface_values_, former_interface_values_;
   Interfaces interfaces_{};
-  std::vector<double> priority_;            ///< [body], empty with symmetric roles
-  std::vector<char> fixed_;                 ///< [body]
-  std::vector<char> plain_;                 ///< [body] as BodyPair says it
+  std::vector<double> priority_;  ///< [body], empty with symmetric roles
+  std::vector<char> fixed_;       ///< [body]
+  /// [body] the surface class of one that is plain as BodyPair says it, or internal_side.
+  std::vector<std::uint32_t> plain_surface_;
   std::vector<std::uint32_t> first_piece_;  ///< [body] as PiecePairs says it
   std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
   Workers& workers_;

@@ -26,19 +26,20 @@ void ContactStage::take_drift(const Model& model, const MotionState& motion) {
 }
 
 kernels::Drift ContactStage::drift_of(const Body& body, const MotionState& motion) {
-  kernels::Drift all;
+  double x = 0, y = 0;
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
     const BoundaryCorner& corner = motion.corners[c];
     corner_drift_[c] = {static_cast<float>(corner.vx), static_cast<float>(corner.vy)};
-    all.mean.x += corner_drift_[c].x, all.mean.y += corner_drift_[c].y;
+    x += corner_drift_[c].x, y += corner_drift_[c].y;
   }
   const double count = body.corner_end - body.corner_begin;
-  all.mean = {all.mean.x / count, all.mean.y / count};
+  kernels::Drift all{static_cast<float>(x / count), static_cast<float>(y / count)};
+  double squared = 0;
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
-    const double x = corner_drift_[c].x - all.mean.x, y = corner_drift_[c].y - all.mean.y;
-    all.spread = std::max(all.spread, x * x + y * y);
+    const double dx = double{corner_drift_[c].x} - all.x, dy = double{corner_drift_[c].y} - all.y;
+    squared = std::max(squared, dx * dx + dy * dy);
   }
-  all.spread = std::sqrt(all.spread);
+  all.spread = kernels::at_least(std::sqrt(squared));
   return all;
 }
 

@@ -47,7 +47,7 @@ bool ContactStage::fits(const Model& model) const {
     if (pair.slot_start != contacts) return false;
     contacts += pair.contact_count;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size()) return false;
-    if (plain(pair)) continue;
+    if (plain(pair.a, pair.b)) continue;
     const auto [begin, end] = pair.piece_pair_range;
     if (begin >= end || end > piece_pairs_.size()) return false;
     const auto of_others = [&](const PiecePair& pieces) {

@@ -38,16 +38,16 @@ inline float at_least(double value) {
 
 /// The velocities with which the corners of a body are taken to go on (CornerDrift), by a circle around them.
 struct Drift {
-  Vec2 mean;          ///< m/s
-  double spread = 0;  ///< m/s, by which that of a corner differs at most
+  float x = 0, y = 0;  ///< m/s, its middle
+  float spread = 0;    ///< m/s, by which that of a corner differs at most
 
   /// By a circle around them and rest.
-  Drift with_rest() const { return {{}, approach({})}; }
+  Drift with_rest() const { return {0, 0, at_least(approach({}))}; }
 
   /// m/s, by which corners of two bodies differ at most.
   double approach(const Drift& other) const {
-    const double x = other.mean.x - mean.x, y = other.mean.y - mean.y;
-    return std::sqrt(x * x + y * y) + (spread + other.spread);
+    const double dx = double{other.x} - x, dy = double{other.y} - y;
+    return std::sqrt(dx * dx + dy * dy) + (double{spread} + other.spread);
   }
 };
 

@@ -54,7 +54,8 @@ void Simulation::State::exchange_books(Archive& archive) {
   archive.of_known_size(start);
   archive.of_known_size(start_displacement);
   archive.of_known_size(rotation);
-  archive.of_known_size(last_turn);
+  archive(rotation_at_start);
+  if (!rotation_at_start.empty() && rotation_at_start.size() != rotation.size()) Archive::refuse();
   archive(turned);
   archive.of_known_size(at_time.bodies);
   archive.of_known_size(at_time.patches);

@@ -108,7 +108,9 @@ bool Simulation::advance(const Pause& pause) {
       s.start = s.motion.bodies;
       s.start_displacement = s.motion.patch_displacement;
     }
-    for (std::size_t i = 0; i < s.last_turn.size(); ++i) s.last_turn[i] = turn_of(s.motion.bodies[i].h);
+    s.bring_rotation_up_to_date();
+    if (std::ranges::any_of(s.rotation, [](double angle) { return angle != 0; }))
+      s.rotation_at_start = s.rotation;
     s.begin(output_time(1));
     s.warn_of_large_step();
     s.warn_of_initial_overlap();
@@ -243,7 +245,7 @@ Motion Simulation::body_motion(std::size_t body) const {
   return {{b.centre.x + now.x, b.centre.y + now.y},
           {now.x - start.x, now.y - start.y},
           speed,
-          s.rotation[index],
+          s.rotation_since_start(index),
           stress[0],
           stress[1],
           stress[2]};
@@ -272,7 +274,7 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   return {{point_at_start.x + now.x, point_at_start.y + now.y},
           {now.x - start.x, now.y - start.y},
           speed,
-          s.rotation[index],
+          s.rotation_since_start(index),
           stress[0],
           stress[1],
           stress[2]};

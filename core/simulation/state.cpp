@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace talus {
@@ -48,7 +49,6 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       start(scene.settle ? model.bodies.size() : 0),
       start_displacement(scene.settle ? model.patch_star.size() : 0),
       rotation(model.bodies.size(), 0.0),
-      last_turn(model.bodies.size()),
       profile(settings.profile) {
   if (scene.sleep) {
     sleep.emplace(*scene.sleep, model, stage);
@@ -58,7 +58,9 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
   summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
   blocks.set_supports(stage.supports);
-  model.cut = {};  // corners have it
+  // Corners have both, and none but the votes of a later stage asks the model.
+  std::vector<std::uint32_t>().swap(model.cut);
+  if (scene.stages.empty()) std::vector<std::uint32_t>().swap(model.surface);
   lay_in_large_pages(model.partition, motion);
 }
 
@@ -326,11 +328,14 @@ void Simulation::State::bring_rotation_up_to_date() {
   turned = 0;
   for (const std::uint32_t i : model.moving_bodies) {
     if (model.covered(i)) motion.average(model, i);
-    // Rotation of F_now F_lastᵀ up to stretch: angle of the two polar rotations.
-    const Vec2 now = turn_of(motion.bodies[i].h), last = last_turn[i];
-    rotation[i] += std::atan2(now.y * last.x - now.x * last.y, now.x * last.x + now.y * last.y);
-    last_turn[i] = now;
+    // The angle of the polar rotation, less than half a turn from where it was.
+    const Vec2 now = turn_of(motion.bodies[i].h);
+    rotation[i] += std::remainder(std::atan2(now.y, now.x) - rotation[i], 2 * std::numbers::pi);
   }
+}
+
+double Simulation::State::rotation_since_start(std::uint32_t body) const {
+  return rotation[body] - (rotation_at_start.empty() ? 0 : rotation_at_start[body]);
 }
 
 Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {

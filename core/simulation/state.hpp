@@ -72,9 +72,10 @@ struct Simulation::State {
   bool interfaces_changed = false;  ///< by a stage, for the coming evaluation of contacts
   Vec2 last_gravity;                ///< m/s², at t_{n−1}
   double unbalanced_share = 0;      ///< unbalanced over applied force, while settling
-  std::vector<double> rotation;     ///< rad since t = 0, followed through full turns
-  std::vector<Vec2> last_turn;      ///< turn_of() the bodies when `rotation` was brought up to date
-  double turned = 0;                ///< rad, bound of what any body has turned since then
+  std::vector<double> rotation;     ///< [body] rad from the shape it is drawn in, followed through full turns
+  std::vector<double>
+      rotation_at_start;  ///< [body] rad, at t = 0; empty where bodies start as they are drawn
+  double turned = 0;      ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;
   ContactTotals contact_totals;
@@ -121,6 +122,7 @@ struct Simulation::State {
   void warn_of_initial_overlap();
   void warn_of_thin_ground();
   void bring_rotation_up_to_date();
+  double rotation_since_start(std::uint32_t body) const;  ///< rad
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();

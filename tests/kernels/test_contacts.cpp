@@ -55,7 +55,7 @@ struct SomePairs {
       approach.push_back(untouched);
     }
     for (std::size_t body = 0; body < 1000 + pairs.size(); ++body)
-      drift.push_back({{random(), random()}, random()});
+      drift.push_back({at_most(random()), at_most(random()), at_least(random())});
     history.assign((slot + 1) * doubles, untouched);
     for (std::uint32_t i = 0; i <= slot; ++i) damping_power.push_back(random());  // also of who is apart
     for (std::size_t i = 0; i < history.size(); ++i) found.push_back(random());
