@@ -83,7 +83,8 @@ std::uint32_t surface_of(const SceneBody& body, std::uint32_t side) {
 void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index, const LaidCover& cover,
                const std::vector<Element>& elements) {
   Body& body = model.bodies[index];
-  body.side_begin = static_cast<std::uint32_t>(model.sides.size());
+  CoverRanges& ranges = model.ranges(body);
+  ranges.side_begin = static_cast<std::uint32_t>(model.sides.size());
   for (const auto& loop : cover.loops) {
     const auto first = static_cast<std::uint32_t>(model.sides.size());
     const auto count = static_cast<std::uint32_t>(loop.size());
@@ -98,48 +99,51 @@ void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index, c
       model.side_size.push_back(size_of(elements[loop[i].element]));
     }
   }
-  body.side_end = static_cast<std::uint32_t>(model.sides.size());
+  ranges.side_end = static_cast<std::uint32_t>(model.sides.size());
 }
 
 /// A tied patch hands its mass to those it follows; one with added inertia keeps its own.
 void steady_patches(Model& model, Body& body, const LaidCover& cover, double density) {
+  CoverRanges& ranges = model.ranges(body);
   model.row_sum.resize(model.patch_mass.size());
-  std::copy(model.patch_mass.begin() + body.patch_begin, model.patch_mass.end(),
-            model.row_sum.begin() + body.patch_begin);
-  body.steady_begin = static_cast<std::uint32_t>(model.steady.size());
+  std::copy(model.patch_mass.begin() + ranges.patch_begin, model.patch_mass.end(),
+            model.row_sum.begin() + ranges.patch_begin);
+  ranges.steady_begin = static_cast<std::uint32_t>(model.steady.size());
   for (const LaidCover::Steadied& one : cover.steadied) {
-    SteadyPatch steady{body.patch_begin + one.patch, {}, density * one.inertia_area};
+    SteadyPatch steady{ranges.patch_begin + one.patch, {}, density * one.inertia_area};
     steady.to.weight = one.weights;
-    for (std::size_t i = 0; i < 3; ++i) steady.to.patch[i] = body.patch_begin + one.to[i];
+    for (std::size_t i = 0; i < 3; ++i) steady.to.patch[i] = ranges.patch_begin + one.to[i];
     model.steady.push_back(steady);
     if (std::isfinite(one.inertia_area)) continue;
     for (std::size_t i = 0; i < 3; ++i)
       model.patch_mass[steady.to.patch[i]] += one.weights[i] * model.patch_mass[steady.patch];
     model.patch_mass[steady.patch] = 0;
   }
-  body.steady_end = static_cast<std::uint32_t>(model.steady.size());
+  ranges.steady_end = static_cast<std::uint32_t>(model.steady.size());
 }
 
 void check_masses(const Model& model, const Body& body, const SceneBody& scene_body) {
-  std::vector<char> tied(body.patch_end - body.patch_begin, 0);
-  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s)
-    tied[model.steady[s].patch - body.patch_begin] = std::isinf(model.steady[s].inertia) ? 1 : 0;
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
-    if (tied[p - body.patch_begin] != 0 || model.patch_mass[p] > 0) continue;
+  const CoverRanges& ranges = model.ranges(body);
+  std::vector<char> tied(ranges.patch_end - ranges.patch_begin, 0);
+  for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s)
+    tied[model.steady[s].patch - ranges.patch_begin] = std::isinf(model.steady[s].inertia) ? 1 : 0;
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
+    if (tied[p - ranges.patch_begin] != 0 || model.patch_mass[p] > 0) continue;
     throw PluginError(fmt::format("cover '{}' gives patch {} of body '{}' a mass of {:.3g} kg/m",
-                                  scene_body.cover.component->component->name, p - body.patch_begin,
+                                  scene_body.cover.component->component->name, p - ranges.patch_begin,
                                   scene_body.name, model.patch_mass[p]));
   }
 }
 
 /// Mean mass of the patches that carry the boundary: what a contact feels at once.
 double boundary_mass(const Model& model, const Body& body) {
-  std::vector<char> counted(body.patch_end - body.patch_begin, 0);
+  const CoverRanges& ranges = model.ranges(body);
+  std::vector<char> counted(ranges.patch_end - ranges.patch_begin, 0);
   double sum = 0;
   std::size_t count = 0;
-  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
+  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side) {
     for (const std::uint32_t patch : model.sides[side].start.carrier.patch) {
-      char& seen = counted[patch - body.patch_begin];
+      char& seen = counted[patch - ranges.patch_begin];
       if (seen != 0 || !(model.patch_mass[patch] > 0)) continue;
       seen = 1;
       sum += model.patch_mass[patch];
@@ -176,9 +180,10 @@ std::vector<std::uint32_t> carrying(const LaidCover& cover, const std::vector<Ve
 /// The triangles of any shape of a body, as its subdomains go through them. `areas`: [element] m².
 void fill_triangles(Model& model, const Body& body, const std::vector<Element>& elements,
                     const double* areas) {
+  const CoverRanges& ranges = model.ranges(body);
   Partition& partition = model.partition;
   for (auto& component : partition.gradient) component.resize(partition.corner.size());
-  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
+  for (std::uint32_t s = ranges.subdomain_begin; s < ranges.subdomain_end; ++s) {
     const Subdomain& subdomain = partition.subdomains[s];
     for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
       const ElementChunk& chunk = partition.chunks[c];
@@ -202,19 +207,19 @@ void fill_triangles(Model& model, const Body& body, const std::vector<Element>& 
 }
 
 /// The slots of each common patch of a body, in the order of the subdomains.
-void list_slots(Partition& partition, Body& body) {
-  body.common_index = partition.common_count();
+void list_slots(Partition& partition, CoverRanges& ranges) {
+  ranges.common_index = partition.common_count();
   if (partition.common_start.empty()) partition.common_start.push_back(0);
-  const std::uint32_t count = body.patch_end - body.own_end;
-  const std::uint32_t begin = partition.subdomains[body.subdomain_begin].slot_begin;
-  const std::uint32_t end = partition.subdomains[body.subdomain_end - 1].slot_end;
+  const std::uint32_t count = ranges.patch_end - ranges.own_end;
+  const std::uint32_t begin = partition.subdomains[ranges.subdomain_begin].slot_begin;
+  const std::uint32_t end = partition.subdomains[ranges.subdomain_end - 1].slot_end;
   std::vector<std::uint32_t> start(count + 1, 0);
-  for (std::uint32_t s = begin; s < end; ++s) ++start[partition.slot_patch[s] - body.own_end + 1];
+  for (std::uint32_t s = begin; s < end; ++s) ++start[partition.slot_patch[s] - ranges.own_end + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
   for (std::uint32_t i = 1; i <= count; ++i) partition.common_start.push_back(begin + start[i]);
   partition.common_slot.resize(end);
   for (std::uint32_t s = begin; s < end; ++s)
-    partition.common_slot[begin + start[partition.slot_patch[s] - body.own_end]++] = s;
+    partition.common_slot[begin + start[partition.slot_patch[s] - ranges.own_end]++] = s;
 }
 
 }  // namespace
@@ -222,18 +227,20 @@ void list_slots(Partition& partition, Body& body) {
 void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t index, LaidCover cover,
                       double density, const std::vector<Vec2>& loaded) {
   Body& body = model.bodies[index];
-  body.patch_begin = static_cast<std::uint32_t>(model.patch_star.size());
-  body.subdomain_begin = static_cast<std::uint32_t>(model.partition.subdomains.size());
-  body.lattice = static_cast<std::uint32_t>(model.partition.lattices.size());
+  body.ranges = static_cast<std::uint32_t>(model.cover_ranges.size());
+  CoverRanges& ranges = model.cover_ranges.emplace_back();
+  ranges.patch_begin = static_cast<std::uint32_t>(model.patch_star.size());
+  ranges.subdomain_begin = static_cast<std::uint32_t>(model.partition.subdomains.size());
+  ranges.lattice = static_cast<std::uint32_t>(model.partition.lattices.size());
   const PartitionCounts counts =
-      partition_cover(model.partition, cover, carrying(cover, loaded), body.patch_begin);
-  body.own_end = body.patch_begin + counts.own;
-  body.free_end = body.patch_begin + counts.free;
-  body.subdomain_end = static_cast<std::uint32_t>(model.partition.subdomains.size());
-  const RegularLattice& lattice = model.partition.lattices[body.lattice];
+      partition_cover(model.partition, cover, carrying(cover, loaded), ranges.patch_begin);
+  ranges.own_end = ranges.patch_begin + counts.own;
+  ranges.free_end = ranges.patch_begin + counts.free;
+  ranges.subdomain_end = static_cast<std::uint32_t>(model.partition.subdomains.size());
+  const RegularLattice& lattice = model.partition.lattices[ranges.lattice];
   model.patch_star.insert(model.patch_star.end(), cover.patches.begin(), cover.patches.end());
   model.patch_mass.resize(model.patch_star.size(), 0.0);
-  body.patch_end = static_cast<std::uint32_t>(model.patch_star.size());
+  ranges.patch_end = static_cast<std::uint32_t>(model.patch_star.size());
 
   std::vector<Element> elements;
   double size = 0;
@@ -242,7 +249,7 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   model.elements.resize(first);  // affine blocks before have none
   model.element_region.resize(first);
   for (LaidCover::LaidElement& laid : cover.elements) {
-    elements.push_back(element_of(cover, laid, body.patch_begin));
+    elements.push_back(element_of(cover, laid, ranges.patch_begin));
     if (laid.lattice != 0) make_regular(elements.back(), laid.lattice, lattice);
     const double area = laid.lattice != 0 ? lattice.area : laid.moments.area;
     add_mass(model, elements.back(), laid, area, density);
@@ -255,7 +262,7 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   steady_patches(model, body, cover, density);
   check_masses(model, body, scene_body);
   fill_triangles(model, body, elements, model.element_area.data() + first);
-  list_slots(model.partition, body);
+  list_slots(model.partition, ranges);
   add_sides(model, scene_body, index, cover, elements);
   body.width = std::min(body.width, size / static_cast<double>(elements.size()));
   body.contact_mass = boundary_mass(model, body);

@@ -30,16 +30,17 @@ struct Known {
 
 std::vector<std::uint32_t> distinct_points(const Model& model, std::uint32_t body) {
   const Body& b = model.bodies[body];
+  const CoverRanges& ranges = model.ranges(b);
   constexpr std::uint32_t none = 0xFFFFFFFFu;
   std::vector<Known> known;
-  std::vector<std::uint32_t> latest(b.patch_end - b.patch_begin, none);  ///< [patch] in `known`
+  std::vector<std::uint32_t> latest(ranges.patch_end - ranges.patch_begin, none);  ///< [patch] in `known`
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
     const std::uint32_t element = model.body_element[i];
     for (const Ring& ring : model.element_region[element]) {
       for (const Vec2 at : ring) {
         const std::array<std::uint32_t, 3> patches = patches_of(model.carrier(model.elements[element], at));
-        std::uint32_t& last = latest[patches[0] - b.patch_begin];
+        std::uint32_t& last = latest[patches[0] - ranges.patch_begin];
         std::uint32_t number = last;
         const auto same = [&](const Known& other) {
           return other.at.x == at.x && other.at.y == at.y && other.patches == patches;

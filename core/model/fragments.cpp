@@ -9,7 +9,7 @@ std::vector<std::uint32_t> fragments_of(const Model& model, std::uint32_t body) 
   const auto element = [&](std::uint32_t i) -> const Element& {
     return model.elements[model.body_element[i]];
   };
-  Fragments fragments(b);
+  Fragments fragments(model.ranges(b));
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) fragments.add(element(i));
   std::vector<std::uint32_t> numbers;
   std::map<std::size_t, std::uint32_t> number_of;

@@ -11,7 +11,8 @@ namespace talus {
 class Fragments {
  public:
   /// Of elements added one by one; patches are told apart until then.
-  explicit Fragments(const Body& body) : first_(body.patch_begin), sets_(body.patch_end - body.patch_begin) {}
+  explicit Fragments(const CoverRanges& ranges)
+      : first_(ranges.patch_begin), sets_(ranges.patch_end - ranges.patch_begin) {}
   void add(const Element& element) {
     sets_.union_set(element.patch[0] - first_, element.patch[1] - first_);
     sets_.union_set(element.patch[0] - first_, element.patch[2] - first_);

@@ -221,8 +221,9 @@ Carrier Model::carrier(const Element& element, Vec2 reference) const {
 
 std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, std::uint32_t index) {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   if (model.covered(index))
-    return {model.sides.begin() + body.side_begin, model.sides.begin() + body.side_end};
+    return {model.sides.begin() + ranges.side_begin, model.sides.begin() + ranges.side_end};
   std::vector<BoundarySide> sides;
   const auto append = [&](const Loop& loop) {
     const std::size_t count = loop.vertices.size();

@@ -61,10 +61,27 @@ struct Strip {
   std::uint32_t competitor_begin, competitor_end;  ///< entries of Model::competitors
 };
 
+/// Where in the Model's arrays a body of many elements has what it consists of; of others all is empty.
+struct CoverRanges {
+  std::uint32_t side_begin = 0, side_end = 0;      ///< sides of its boundary
+  std::uint32_t patch_begin = 0, patch_end = 0;    ///< its patches
+  std::uint32_t steady_begin = 0, steady_end = 0;  ///< its steadied patches
+
+  // How it is divided (see Partition).
+  std::uint32_t own_end = 0;       ///< patches from patch_begin on that are own
+  std::uint32_t free_end = 0;      ///< common patches before it have no part in `steady`
+  std::uint32_t common_index = 0;  ///< of patch own_end in Partition::common_start
+  std::uint32_t subdomain_begin = 0, subdomain_end = 0;  ///< its subdomains
+  std::uint32_t lattice = 0;                             ///< entry of Partition::lattices
+
+  double contact_depth = std::numeric_limits<double>::infinity();  ///< m, how deep contact can be seen
+};
+
 /// What stays of a body while it moves. Positions X are relative to the centroid at the start.
 struct Body {
   Kinematics kinematics = Kinematics::fixed;
   bool meets_itself = false;  ///< whether parts of its boundary may touch each other
+  std::uint32_t ranges = 0;   ///< entry of Model::cover_ranges
   Vec2 centre;                ///< m, centroid at the start, without the scene's origin
   double mass = 0;            ///< kg per metre of thickness
   double density = 0;         ///< kg/m³
@@ -72,20 +89,9 @@ struct Body {
   double strain_mass_scale = 1;  ///< see StrainMass (affine)
   double width = 0;         ///< m, smallest; of many elements: the smaller of that and their typical size
   double contact_mass = 0;  ///< kg per metre: that of the body, or of a patch of the boundary
-  double contact_depth = std::numeric_limits<double>::infinity();  ///< m, how deep contact can be seen
   std::uint32_t corner_begin = 0, corner_end = 0;
   std::uint32_t piece_begin = 0, piece_end = 0;
-  std::uint32_t side_begin = 0, side_end = 0;        ///< covered: sides of its boundary
-  std::uint32_t patch_begin = 0, patch_end = 0;      ///< covered: its patches
-  std::uint32_t steady_begin = 0, steady_end = 0;    ///< covered: its steadied patches
   std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
-
-  // Covered: how it is divided (see Partition).
-  std::uint32_t own_end = 0;       ///< patches from patch_begin on that are own
-  std::uint32_t free_end = 0;      ///< common patches before it have no part in `steady`
-  std::uint32_t common_index = 0;  ///< of patch own_end in Partition::common_start
-  std::uint32_t subdomain_begin = 0, subdomain_end = 0;  ///< its subdomains
-  std::uint32_t lattice = 0;                             ///< entry of Partition::lattices
 
   /// kg m, about the centroid (rigid).
   double inertia() const { return density * (moments.xx + moments.yy); }
@@ -102,6 +108,7 @@ struct Body {
 /// Eq. 17 as masses.
 struct Model {
   std::vector<Body> bodies;
+  std::vector<CoverRanges> cover_ranges{1};  ///< the first: of all bodies that move as a whole or not at all
   // Those that a step has to do with: fixed bodies take no part in its loops.
   std::vector<std::uint32_t> moving_bodies;
   std::vector<std::uint32_t> covered_bodies;  ///< of many elements
@@ -143,6 +150,8 @@ struct Model {
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
   bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
+  CoverRanges& ranges(const Body& body) { return cover_ranges[body.ranges]; }
+  const CoverRanges& ranges(const Body& body) const { return cover_ranges[body.ranges]; }
   /// Whether the body is convex itself.
   bool one_piece(const Body& body) const {
     return body.piece_end == body.piece_begin + 1 && is_strip[body.piece_begin] == 0;

@@ -81,7 +81,8 @@ void MotionState::clear_forces(const Model& model) {
 void MotionState::clear_patch_forces(const Model& model) {
   for (const std::uint32_t index : model.covered_bodies) {
     const Body& body = model.bodies[index];
-    for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) patch_force[p] = {};
+    const CoverRanges& ranges = model.ranges(body);
+    for (std::uint32_t p = ranges.own_end; p < ranges.patch_end; ++p) patch_force[p] = {};
   }
 }
 
@@ -104,8 +105,9 @@ Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) 
 
 void MotionState::average(const Model& model, std::uint32_t index) {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   BodyMotion mean;
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const double share = model.patch_mass[p] / body.mass;
     mean.u.x += share * patch_displacement[p].x;
     mean.u.y += share * patch_displacement[p].y;
@@ -146,11 +148,12 @@ void MotionState::shape_boundary(const Model& model, std::size_t body) {
 
 void MotionState::move_corners(const Model& model, std::size_t index) {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   if (body.kinematics == Kinematics::covered) {
     // A side ends where the next one starts.
-    for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
+    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side) {
       const auto corner_of = [&](std::uint32_t s) {
-        return model.piece_start[body.piece_begin + s - body.side_begin];
+        return model.piece_start[body.piece_begin + s - ranges.side_begin];
       };
       const MaterialPoint& point = model.sides[side].start;
       const Vec2 moved = displacement(point), speed = velocity(point);

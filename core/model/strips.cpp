@@ -118,6 +118,7 @@ bool are_apart(const Model& model, std::uint32_t p, std::uint32_t q, double gap)
 /// than three.
 double equal_depth(const Model& model, const Body& body, std::uint32_t side, double wanted,
                    const std::vector<char>& near) {
+  const CoverRanges& ranges = model.ranges(body);
   const ReferenceSide own = reference_side(model, side);
   const Vec2 normal = inward(own.tangent);
   const Vec2 before = reference_side(model, model.previous_side[side]).tangent,
@@ -135,8 +136,8 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
   const End ends[] = {end_between(own.start, before, own.tangent), end_between(own.end, own.tangent, after)};
 
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t other = body.side_begin; other < body.side_end; ++other) {
-    if (near[other - body.side_begin] != 0 || are_apart(model, side, other, 5 * wanted)) continue;
+  for (std::uint32_t other = ranges.side_begin; other < ranges.side_end; ++other) {
+    if (near[other - ranges.side_begin] != 0 || are_apart(model, side, other, 5 * wanted)) continue;
     const ReferenceSide there = reference_side(model, other);
     const auto meet = [&](const Ray& ray) {
       const Vec2 other_normal = inward(there.tangent);
@@ -154,7 +155,7 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
       const double distance = end.tip ? distance_to_side(end.bisector.from, there) : 0;
       if (distance > rounding) least = std::min(least, distance / 2);
     }
-    if (near[model.previous_side[other] - body.side_begin] != 0) continue;
+    if (near[model.previous_side[other] - ranges.side_begin] != 0) continue;
     for (const auto& [bisector, reflex, tip] : ends) {
       // Around a reflex corner the strip fans out.
       const Vec2 way = minus(there.start, bisector.from);
@@ -207,24 +208,25 @@ void join_coincident(Corners& corners, std::size_t count, double depth) {
 
 void add_strips(Model& model, std::uint32_t index) {
   Body& body = model.bodies[index];
-  Fragments fragments(body);
+  CoverRanges& ranges = model.ranges(body);
+  Fragments fragments(ranges);
   for (std::size_t e = model.elements.size(); e > 0 && model.element_body[e - 1] == index; --e)
     fragments.add(model.elements[e - 1]);
   std::vector<std::size_t> fragment;
-  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side)
+  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
     fragment.push_back(fragments.of(model.sides[side].start.carrier.patch[0]));
   std::vector<double> depths;
-  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side) {
+  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side) {
     const double wanted = depth_share * model.side_size[side];
     std::vector<std::uint32_t> competitors;
     find_competitors(model, side, wanted, true, competitors);
     find_competitors(model, side, wanted, false, competitors);
-    std::vector<char> near(body.side_end - body.side_begin, 0);
-    const std::size_t own = fragment[side - body.side_begin];
+    std::vector<char> near(ranges.side_end - ranges.side_begin, 0);
+    const std::size_t own = fragment[side - ranges.side_begin];
     std::ranges::transform(fragment, near.begin(), [&](std::size_t other) { return other != own ? 1 : 0; });
-    near[side - body.side_begin] = near[model.next_side[side] - body.side_begin] = 1;
-    near[model.previous_side[side] - body.side_begin] = 1;
-    for (const std::uint32_t competitor : competitors) near[competitor - body.side_begin] = 1;
+    near[side - ranges.side_begin] = near[model.next_side[side] - ranges.side_begin] = 1;
+    near[model.previous_side[side] - ranges.side_begin] = 1;
+    for (const std::uint32_t competitor : competitors) near[competitor - ranges.side_begin] = 1;
     const double depth = std::min(wanted, safe_share * equal_depth(model, body, side, wanted, near));
     depths.push_back(depth);
     const std::size_t corners = 4 + competitors.size();
@@ -246,13 +248,14 @@ void add_strips(Model& model, std::uint32_t index) {
   }
   std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
                    depths.end());
-  body.contact_depth = depths[depths.size() / 2];
+  ranges.contact_depth = depths[depths.size() / 2];
 }
 
 void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   const auto first_corner = [&](std::uint32_t side) {
-    return model.piece_start[body.piece_begin + side - body.side_begin];
+    return model.piece_start[body.piece_begin + side - ranges.side_begin];
   };
   const auto corner = [&](std::uint32_t c) { return Vec2{motion.corners[c].x, motion.corners[c].y}; };
   const auto tangent_of = [&](std::uint32_t side) {

@@ -31,10 +31,11 @@ kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& 
 /// The same of a body of many elements whose corners are left behind.
 kernels::SpeedExtremes speeds_of_sides(const Model& model, const MotionState& motion, const Body& body,
                                        std::span<const kernels::CornerDrift> drift) {
+  const CoverRanges& ranges = model.ranges(body);
   kernels::SpeedExtremes all;
-  for (std::uint32_t side = body.side_begin; side < body.side_end; ++side)
+  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
     add(all, motion.velocity(model.sides[side].start),
-        drift[model.piece_start[body.piece_begin + side - body.side_begin]]);
+        drift[model.piece_start[body.piece_begin + side - ranges.side_begin]]);
   return all;
 }
 

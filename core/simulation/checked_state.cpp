@@ -97,7 +97,8 @@ void Simulation::State::check_step() const {
   const ContactTotals& totals = contact_totals;
   if (totals.penetration == 0) return;
   const Body &a = model.bodies[totals.deepest_a], &b = model.bodies[totals.deepest_b];
-  const double width = std::min(a.width, b.width), visible = 0.9 * std::min(a.contact_depth, b.contact_depth);
+  const double width = std::min(a.width, b.width),
+               visible = 0.9 * std::min(model.ranges(a).contact_depth, model.ranges(b).contact_depth);
   if (!(totals.penetration <= std::min(scene.limits.penetration * width, visible))) {
     if (visible < scene.limits.penetration * width) {
       throw NumericalTrouble(

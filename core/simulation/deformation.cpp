@@ -12,7 +12,8 @@ constexpr std::size_t gather_chunk = 1024;  ///< common patches
 std::size_t most_chunks(const Model& model) {
   std::size_t most = 0;
   for (const std::uint32_t b : model.covered_bodies) {
-    const std::size_t common = model.bodies[b].patch_end - model.bodies[b].own_end;
+    const std::size_t common =
+        model.ranges(model.bodies[b]).patch_end - model.ranges(model.bodies[b]).own_end;
     most = std::max(most, (common + gather_chunk - 1) / gather_chunk);
   }
   return most;
@@ -88,7 +89,7 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
     const bool free = !support_of(supports, b).any();
-    updated_[b] = {free ? model.bodies[b].free_end : 0, {}};
+    updated_[b] = {free ? model.ranges(model.bodies[b]).free_end : 0, {}};
     SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = free};
     step.velocity = {
         update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
@@ -104,26 +105,27 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
 
 void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep& step, MotionState& motion) {
   const Body& body = model.bodies[index];
-  workers_.over(body.subdomain_end - body.subdomain_begin, 1,
+  const CoverRanges& ranges = model.ranges(body);
+  workers_.over(ranges.subdomain_end - ranges.subdomain_begin, 1,
                 [&](std::size_t, std::size_t begin, std::size_t end, std::size_t thread) {
-                  const auto first = static_cast<std::uint32_t>(body.subdomain_begin + begin),
-                             last = static_cast<std::uint32_t>(body.subdomain_begin + end);
+                  const auto first = static_cast<std::uint32_t>(ranges.subdomain_begin + begin),
+                             last = static_cast<std::uint32_t>(ranges.subdomain_begin + end);
                   sweep_.run(model, body, first, last, step, materials_, motion, workspaces_[thread], sums_);
                 });
-  workers_.over(body.patch_end - body.own_end, gather_chunk,
+  workers_.over(ranges.patch_end - ranges.own_end, gather_chunk,
                 [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                   const auto first = static_cast<std::uint32_t>(begin),
                              last = static_cast<std::uint32_t>(end);
                   sweep_.gather(model, body, first, last, motion);
                   common_sums_[chunk] = {};
-                  const std::uint32_t free = std::min(last, body.free_end - body.own_end);
+                  const std::uint32_t free = std::min(last, ranges.free_end - ranges.own_end);
                   if (step.update && first < free)
                     sweep_.update_common(model, body, first, free, step, motion, common_sums_[chunk]);
                 });
   if (!step.update) return;
   kernels::VelocitySums& total = updated_[index].sums;
-  for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) add(total, sums_[s].own);
-  for (std::size_t chunk = 0; chunk * gather_chunk < body.patch_end - body.own_end; ++chunk)
+  for (std::uint32_t s = ranges.subdomain_begin; s < ranges.subdomain_end; ++s) add(total, sums_[s].own);
+  for (std::size_t chunk = 0; chunk * gather_chunk < ranges.patch_end - ranges.own_end; ++chunk)
     add(total, common_sums_[chunk]);
 }
 

@@ -101,8 +101,9 @@ ElementSweep::Workspace ElementSweep::workspace() const {
 void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
                        const SweepStep& step, MaterialBatches& materials, MotionState& motion, Workspace& w,
                        std::vector<SweepSums>& sums) {
+  const CoverRanges& ranges = model.ranges(body);
   const Partition& partition = model.partition;
-  const RegularLattice& lattice = partition.lattices[body.lattice];
+  const RegularLattice& lattice = partition.lattices[ranges.lattice];
   const std::uint32_t first = model.first_element(body);
   const std::uint32_t batch = materials.batch_of(first);
   const Material* const sweeping = materials.sweeping(batch);
@@ -189,10 +190,11 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
 
 void ElementSweep::gather(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
                           MotionState& motion) const {
+  const CoverRanges& ranges = model.ranges(body);
   const Partition& partition = model.partition;
   for (std::uint32_t i = begin; i < end; ++i) {
-    const std::uint32_t common = body.common_index + i;
-    Vec2& force = motion.patch_force[body.own_end + i];
+    const std::uint32_t common = ranges.common_index + i;
+    Vec2& force = motion.patch_force[ranges.own_end + i];
     for (std::uint32_t k = partition.common_start[common]; k < partition.common_start[common + 1]; ++k) {
       force.x += slot_[partition.common_slot[k]].x;
       force.y += slot_[partition.common_slot[k]].y;
@@ -203,7 +205,8 @@ void ElementSweep::gather(const Model& model, const Body& body, std::uint32_t be
 void ElementSweep::update_common(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
                                  const SweepStep& step, MotionState& motion,
                                  kernels::VelocitySums& sums) const {
-  const std::uint32_t first = body.own_end + begin;
+  const CoverRanges& ranges = model.ranges(body);
+  const std::uint32_t first = ranges.own_end + begin;
   double* const force = flat(motion.patch_force, first);
   kernels_.accelerate(end - begin, step.velocity, false, model.patch_mass.data() + first,
                       step.inverse_mass + first, {force, force + 1, 2}, flat(motion.patch_velocity, first),

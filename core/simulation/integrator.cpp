@@ -191,7 +191,8 @@ Matrix2 spin_rate(const BodyMotion& motion) {
 void move(const Model& model, double dt, Blocks& blocks, MotionState& motion) {
   for (const std::uint32_t index : model.covered_bodies) {
     const Body& body = model.bodies[index];
-    for (std::uint32_t p = body.own_end; p < body.patch_end; ++p) {
+    const CoverRanges& ranges = model.ranges(body);
+    for (std::uint32_t p = ranges.own_end; p < ranges.patch_end; ++p) {
       motion.patch_displacement[p].x += dt * motion.patch_velocity[p].x;
       motion.patch_displacement[p].y += dt * motion.patch_velocity[p].y;
     }

@@ -19,8 +19,9 @@ Vec2 deviation(const SteadyPatch& steady, std::span<const Vec2> values, std::uin
 }
 
 std::vector<SteadyPatch> heavier_patches(const Model& model, const Body& body) {
+  const CoverRanges& ranges = model.ranges(body);
   std::vector<SteadyPatch> result;
-  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+  for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
     if (std::isfinite(model.steady[s].inertia)) result.push_back(model.steady[s]);
   }
   return result;
@@ -33,22 +34,23 @@ PatchMass::PatchMass(const Model& model) : core_inverse_(model.steady.empty() ? 
   for (const double mass : model.patch_mass) inverse_.push_back(mass > 0 ? 1 / mass : 0);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    const CoverRanges& ranges = model.ranges(body);
     const std::vector<SteadyPatch> heavier = heavier_patches(model, body);
     if (heavier.empty()) continue;
     const auto count = static_cast<Eigen::Index>(heavier.size());
-    const auto patches = static_cast<Eigen::Index>(body.patch_end - body.patch_begin);
+    const auto patches = static_cast<Eigen::Index>(ranges.patch_end - ranges.patch_begin);
     Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(patches, count);
     Eigen::VectorXd mass(patches);
     for (Eigen::Index p = 0; p < patches; ++p) {
-      const double own = model.patch_mass[body.patch_begin + static_cast<std::uint32_t>(p)];
+      const double own = model.patch_mass[ranges.patch_begin + static_cast<std::uint32_t>(p)];
       mass[p] = own > 0 ? own : 1;  // of a tied patch: no deviation names it
     }
     Eigen::MatrixXd core = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index s = 0; s < count; ++s) {
       const SteadyPatch& steady = heavier[static_cast<std::size_t>(s)];
-      deviations(steady.patch - body.patch_begin, s) = 1;
+      deviations(steady.patch - ranges.patch_begin, s) = 1;
       for (std::size_t i = 0; i < 3; ++i)
-        deviations(steady.to.patch[i] - body.patch_begin, s) -= steady.to.weight[i];
+        deviations(steady.to.patch[i] - ranges.patch_begin, s) -= steady.to.weight[i];
       core(s, s) = 1 / steady.inertia;
     }
     core += deviations.transpose() * mass.cwiseInverse().asDiagonal() * deviations;
@@ -62,7 +64,8 @@ PatchMass::PatchMass(const Model& model) : core_inverse_(model.steady.empty() ? 
 void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint32_t first,
                               std::vector<Vec2>& patches) const {
   const Body& body = model.bodies[index];
-  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+  const CoverRanges& ranges = model.ranges(body);
+  for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (std::isfinite(steady.inertia)) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -70,7 +73,7 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
       patches[steady.to.patch[i]].y += steady.to.weight[i] * patches[steady.patch].y;
     }
   }
-  for (std::uint32_t p = first; p < body.patch_end; ++p) {
+  for (std::uint32_t p = first; p < ranges.patch_end; ++p) {
     patches[p].x *= inverse_[p];
     patches[p].y *= inverse_[p];
   }
@@ -78,12 +81,12 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
   if (!core.empty()) {
     static thread_local std::vector<Vec2> deviations;  // keeps its room: a step asks for no memory
     deviations.clear();
-    for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
       if (std::isfinite(model.steady[s].inertia))
         deviations.push_back(deviation(model.steady[s], patches, 0));
     }
     const double* row = core.data();
-    for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+    for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
       const SteadyPatch& steady = model.steady[s];
       if (!std::isfinite(steady.inertia)) continue;
       Vec2 pull;
@@ -104,7 +107,8 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
 
 void PatchMass::tie(const Model& model, std::uint32_t index, std::vector<Vec2>& patches) const {
   const Body& body = model.bodies[index];
-  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+  const CoverRanges& ranges = model.ranges(body);
+  for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (std::isfinite(steady.inertia)) continue;
     Vec2 sum;
@@ -119,13 +123,14 @@ void PatchMass::tie(const Model& model, std::uint32_t index, std::vector<Vec2>& 
 double PatchMass::product(const Model& model, std::uint32_t index, std::uint32_t first,
                           std::span<const Vec2> p, std::span<const Vec2> q) const {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   double sum = 0;
-  for (std::uint32_t i = first; i < body.patch_end; ++i) {
+  for (std::uint32_t i = first; i < ranges.patch_end; ++i) {
     const Vec2 a = p[i - first], b = q[i - first];
     sum += model.patch_mass[i] * (a.x * b.x + a.y * b.y);
   }
   if (core_inverse(index).empty()) return sum;
-  for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s) {
+  for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (!std::isfinite(steady.inertia)) continue;
     const Vec2 a = deviation(steady, p, first), b = deviation(steady, q, first);

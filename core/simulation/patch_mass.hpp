@@ -21,7 +21,7 @@ class PatchMass {
   void accelerations(const Model& model, std::uint32_t body, std::uint32_t first,
                      std::vector<Vec2>& patches) const;
   void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const {
-    accelerations(model, body, model.bodies[body].patch_begin, patches);
+    accelerations(model, body, model.ranges(model.bodies[body]).patch_begin, patches);
   }
 
   /// Tied patches take over the values of those they follow.
@@ -33,7 +33,7 @@ class PatchMass {
                  std::span<const Vec2> q) const;
   double product(const Model& model, std::uint32_t body, std::span<const Vec2> p,
                  std::span<const Vec2> q) const {
-    return product(model, body, model.bodies[body].patch_begin, p, q);
+    return product(model, body, model.ranges(model.bodies[body]).patch_begin, p, q);
   }
 
   const std::vector<double>& inverse() const { return inverse_; }

@@ -13,13 +13,14 @@ Vec2 along(Vec2 p, double factor, Vec2 q) {
 
 /// The velocity of each patch when the body spins by 1 rad/s about its centre of mass, in the present shape.
 void unit_spin(const Model& model, const Body& body, const MotionState& motion, std::vector<Vec2>& spin) {
+  const CoverRanges& ranges = model.ranges(body);
   Vec2 centre;
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const double share = model.patch_mass[p] / body.mass;
     centre = along(centre, share, along(model.patch_star[p], 1, motion.patch_displacement[p]));
   }
   spin.clear();
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const Vec2 at = along(model.patch_star[p], 1, motion.patch_displacement[p]);
     spin.push_back({-(at.y - centre.y), at.x - centre.x});
   }
@@ -88,8 +89,9 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                         const UpdatedPatches& updated, MotionState& motion, VelocitiesAtStep& at_step,
                         AccelerationWork& work) {
   const Body& body = model.bodies[index];
-  const std::uint32_t first = std::max(updated.end, body.patch_begin);
-  const std::size_t count = body.patch_end - first;
+  const CoverRanges& ranges = model.ranges(body);
+  const std::uint32_t first = std::max(updated.end, ranges.patch_begin);
+  const std::size_t count = ranges.patch_end - first;
   const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
   const std::span<Vec2> middle(at_step.patches.data() + first, count);
   static thread_local std::vector<Vec2> before;

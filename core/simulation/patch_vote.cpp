@@ -61,8 +61,9 @@ struct Strengths {
 template <class StrengthsOf>
 void add_springs(const Model& model, const Body& body, const SpringsOfSides& springs,
                  const StrengthsOf& strengths_of, const Field& from, Field& to) {
+  const CoverRanges& ranges = model.ranges(body);
   for (std::size_t i = 0; i < springs.size(); ++i) {
-    const BoundarySide& side = model.sides[body.side_begin + i];
+    const BoundarySide& side = model.sides[ranges.side_begin + i];
     const Vec2 start = side.start.reference, end = side.end.reference;
     const double length =
         std::sqrt((end.x - start.x) * (end.x - start.x) + (end.y - start.y) * (end.y - start.y));
@@ -87,14 +88,15 @@ void add_springs(const Model& model, const Body& body, const SpringsOfSides& spr
 double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32_t index,
                           const Operator& apply) {
   const Body& body = model.bodies[index];
+  const CoverRanges& ranges = model.ranges(body);
   const auto own = [&](const Field& field) {
-    return std::span<const Vec2>(field.data() + body.patch_begin, body.patch_end - body.patch_begin);
+    return std::span<const Vec2>(field.data() + ranges.patch_begin, ranges.patch_end - ranges.patch_begin);
   };
   const auto product = [&](const Field& p, const Field& q) {
     return mass.product(model, index, own(p), own(q));
   };
   const auto add = [&](Field& to, double factor, const Field& from) {
-    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
       to[p].x += factor * from[p].x;
       to[p].y += factor * from[p].y;
     }
@@ -105,7 +107,7 @@ double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32
     seed = seed * 6364136223846793005u + 1442695040888963407u;
     return static_cast<double>(seed >> 40) / 16777216.0 - 0.5;
   };
-  for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) now[p] = {random(), random()};
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) now[p] = {random(), random()};
   mass.tie(model, index, now);
   const double size = std::sqrt(product(now, now));
   for (Vec2& v : now) v = {v.x / size, v.y / size};
@@ -130,7 +132,7 @@ double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32
     if (residual <= close_enough * std::abs(solver.eigenvalues()[last]) || !(coupling > 0)) break;
     beside.push_back(coupling);
     before.swap(now);
-    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p)
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p)
       now[p] = {image[p].x / coupling, image[p].y / coupling};
   }
   return std::max(0.0, best);
@@ -144,7 +146,8 @@ BodyVote vote_of_patches(const Scene& scene, const Model& treated_model, std::ui
   if (!treated) {
     untreated = treated_model;
     untreated.patch_mass = untreated.row_sum;
-    untreated.bodies[index].steady_end = untreated.bodies[index].steady_begin;
+    CoverRanges& ranges = untreated.ranges(untreated.bodies[index]);
+    ranges.steady_end = ranges.steady_begin;
   }
   const Model& model = treated ? treated_model : untreated;
   const Body& body = model.bodies[index];

@@ -33,13 +33,14 @@ double Relaxation::damping(const Damping& how, const Model& model, const MotionS
   const bool can_tell = last_forces_.size() == motion.forces.size() && dt > 0;
   for (std::uint32_t b = 0; can_tell && b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    const CoverRanges& ranges = model.ranges(body);
     if (body.kinematics == Kinematics::fixed) continue;
     if (body.kinematics == Kinematics::covered) {
-      const std::span<const Vec2> velocity(motion.patch_velocity.data() + body.patch_begin,
-                                           body.patch_end - body.patch_begin);
+      const std::span<const Vec2> velocity(motion.patch_velocity.data() + ranges.patch_begin,
+                                           ranges.patch_end - ranges.patch_begin);
       for (std::size_t i = 0; i < velocity.size(); ++i) {
-        const Vec2 now = motion.patch_force[body.patch_begin + i],
-                   last = last_patch_forces_[body.patch_begin + i];
+        const Vec2 now = motion.patch_force[ranges.patch_begin + i],
+                   last = last_patch_forces_[ranges.patch_begin + i];
         stiffness -= (now.x - last.x) * velocity[i].x + (now.y - last.y) * velocity[i].y;
       }
       inertia += mass_.product(model, b, velocity, velocity);
@@ -75,15 +76,17 @@ double Relaxation::unbalanced(const Model& model, const MotionState& motion,
   std::vector<Vec2> acceleration = motion.patch_force;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    const CoverRanges& ranges = model.ranges(body);
     if (body.kinematics == Kinematics::fixed) continue;
     const Support& support = support_of(supports, b);
     if (body.kinematics == Kinematics::covered) {
       mass_.accelerations(model, b, acceleration);
-      const std::span<Vec2> own(acceleration.data() + body.patch_begin, body.patch_end - body.patch_begin);
+      const std::span<Vec2> own(acceleration.data() + ranges.patch_begin,
+                                ranges.patch_end - ranges.patch_begin);
       for (Vec2& of_patch : own) of_patch = {of_patch.x + gravity.x, of_patch.y + gravity.y};
       leave_out_supported(model, mass_, b, support, motion, own);
       for (std::size_t i = 0; i < own.size(); ++i)
-        sum += model.patch_mass[body.patch_begin + i] * size_of(own[i]);
+        sum += model.patch_mass[ranges.patch_begin + i] * size_of(own[i]);
       continue;
     }
     const BodyForce& force = motion.forces[b];

@@ -38,7 +38,8 @@ void Simulation::take_geometry(const Geometry& geometry) {
   }
   for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
     const Body& body = s.model.bodies[s.numbering.inside(i)];
-    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p, from += 2)
+    const CoverRanges& ranges = s.model.ranges(body);
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p, from += 2)
       s.motion.patch_displacement[p] = {from[0], from[1]};
   }
   if (geometry.memory.size() == s.deformation.memory().size() && geometry.numbering == s.numbering.inner)
@@ -56,7 +57,8 @@ Geometry Simulation::geometry() const {
   }
   for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
     const Body& body = s.model.bodies[s.numbering.inside(i)];
-    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+    const CoverRanges& ranges = s.model.ranges(body);
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
       const Vec2 displacement = s.motion.patch_displacement[p];
       geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
     }
@@ -234,7 +236,8 @@ Motion Simulation::body_motion(std::size_t body) const {
   const Body& b = s.model.bodies[index];
   if (!s.model.covered(index)) return point_motion(body, b.centre);
   Vec2 now, start, speed;
-  for (std::uint32_t p = b.patch_begin; p < b.patch_end; ++p) {
+  const CoverRanges& ranges = s.model.ranges(b);
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const double share = s.model.patch_mass[p] / b.mass;
     const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
     add(now, s.motion.patch_displacement[p]);

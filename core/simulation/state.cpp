@@ -365,7 +365,8 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
   body.velocity = velocity;
   body.spin = spin;
   body.rate = spin_rate(body);
-  for (std::uint32_t p = model.bodies[index].patch_begin; p < model.bodies[index].patch_end; ++p) {
+  for (std::uint32_t p = model.ranges(model.bodies[index]).patch_begin;
+       p < model.ranges(model.bodies[index]).patch_end; ++p) {
     const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
                   model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
     motion.patch_velocity[p] = {velocity.x - spin * at.y, velocity.y + spin * at.x};
@@ -381,11 +382,12 @@ void Simulation::State::stop() {
     const Support& support = support_of(stage.supports, i);
     if (!support.any() || !model.moves(i)) continue;
     const Body& body = model.bodies[i];
+    const CoverRanges& ranges = model.ranges(body);
     if (model.covered(i)) motion.average(model, i);
     set_rigid_motion(i, {support.x.value_or(0), support.y.value_or(0)}, support.rotation.value_or(0));
     const BodyMotion& now = motion.bodies[i];
-    const std::span<const Vec2> patches(motion.patch_velocity.data() + body.patch_begin,
-                                        body.patch_end - body.patch_begin);
+    const std::span<const Vec2> patches(motion.patch_velocity.data() + ranges.patch_begin,
+                                        ranges.patch_end - ranges.patch_begin);
     driven += model.covered(i) ? mass.product(model, i, patches, patches) / 2
                                : kinetic_energy(body, body.mass / body.moments.area, now, now);
   }

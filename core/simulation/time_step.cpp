@@ -301,13 +301,14 @@ std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model)
   std::vector<SliverEffect> effects;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
-    if (body.steady_begin == body.steady_end) continue;
+    const CoverRanges& ranges = model.ranges(body);
+    if (ranges.steady_begin == ranges.steady_end) continue;
     std::size_t tied = 0;
-    for (std::uint32_t s = body.steady_begin; s < body.steady_end; ++s)
+    for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s)
       tied += std::isinf(model.steady[s].inertia) ? 1 : 0;
     const BodyVote with = vote_of_patches(scene, model, i, {}, 1),
                    without = vote_of_patches(scene, model, i, {}, 1, false);
-    effects.push_back({i, tied, body.steady_end - body.steady_begin - tied,
+    effects.push_back({i, tied, ranges.steady_end - ranges.steady_begin - tied,
                        stable_step(with.lambda, with.gamma), stable_step(without.lambda, without.gamma)});
   }
   return effects;

@@ -42,11 +42,11 @@ class Pressed {
 
   Loaded at(double x, double y, double turn = 0) const {
     MotionState motion(model_);
-    const Body& b = model_.bodies[1];
+    const CoverRanges& ranges = model_.ranges(model_.bodies[1]);
     const Matrix2 h{std::cos(turn) - 1, -std::sin(turn), std::sin(turn), std::cos(turn) - 1};
     motion.bodies[1].u = {x, y};
     motion.bodies[1].h = h;
-    for (std::uint32_t p = b.patch_begin; p < b.patch_end; ++p) {
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
       const Vec2 star = model_.patch_star[p];
       motion.patch_displacement[p] = {x + h.xx * star.x + h.xy * star.y, y + h.yx * star.x + h.yy * star.y};
     }
@@ -63,12 +63,13 @@ class Pressed {
   /// Linear functions are carried exactly, so patch forces at their star points have the moment of the loads.
   void add(const MotionState& motion, std::uint32_t index, Vec2& force, double& moment) const {
     const Body& body = model_.bodies[index];
+    const CoverRanges& ranges = model_.ranges(body);
     const auto act = [&](Vec2 load, Vec2 at) {
       force = {force.x + load.x, force.y + load.y};
       moment += (body.centre.x + at.x) * load.y - (body.centre.y + at.y) * load.x;
     };
     if (body.kinematics == Kinematics::covered) {
-      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+      for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
         const Vec2 star = model_.patch_star[p], d = motion.patch_displacement[p];
         act(motion.patch_force[p], {star.x + d.x, star.y + d.y});
       }

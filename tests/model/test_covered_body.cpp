@@ -39,10 +39,11 @@ TEST_CASE("row sums of a lattice are the mass of the body and keep its centre", 
       const Model model =
           build_model(covered(ell, fmt::format(R"({}, "slivers": "{}")", place, slivers)).read());
       const Body& body = model.bodies[0];
+      const CoverRanges& ranges = model.ranges(body);
       REQUIRE(body.kinematics == Kinematics::covered);
       double mass = 0;
       Vec2 moment;
-      for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p) {
+      for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
         CHECK(model.patch_mass[p] >= 0);
         mass += model.patch_mass[p];
         moment.x += model.patch_mass[p] * model.patch_star[p].x;

@@ -55,9 +55,10 @@ TEST_CASE("every element is in one chunk and every patch own in one subdomain, o
     text.bodies = scene;
     const Model model = build_model(text.read());
     const Body& body = model.bodies[0];
+    const CoverRanges& ranges = model.ranges(body);
     const Partition& partition = model.partition;
     std::vector<std::uint32_t> seen(model.elements.size(), 0);
-    for (std::uint32_t s = body.subdomain_begin; s < body.subdomain_end; ++s) {
+    for (std::uint32_t s = ranges.subdomain_begin; s < ranges.subdomain_end; ++s) {
       const Subdomain& subdomain = partition.subdomains[s];
       // [place] the patch of the model that has it now.
       std::vector<std::uint32_t> patch_of(subdomain.patch_count, no_patch);
@@ -103,8 +104,8 @@ TEST_CASE("every element is in one chunk and every patch own in one subdomain, o
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](std::uint32_t count) { return count == 1; }));
     const std::vector<std::uint32_t> owners = owner_count(model);
-    for (std::uint32_t p = body.patch_begin; p < body.patch_end; ++p)
-      REQUIRE(owners[p] == (p < body.own_end ? 1 : 0));
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p)
+      REQUIRE(owners[p] == (p < ranges.own_end ? 1 : 0));
   }
 }
 
@@ -115,7 +116,8 @@ TEST_CASE("elements of a fine lattice are found alike, and come in rows", "[mode
   CHECK(static_cast<double>(regular) > 0.95 * static_cast<double>(model.elements.size()));
   CHECK(model.partition.subdomains.size() > 1);
   const Body& body = model.bodies[0];
-  CHECK(body.own_end - body.patch_begin > (body.patch_end - body.patch_begin) / 2);
+  const CoverRanges& ranges = model.ranges(body);
+  CHECK(ranges.own_end - ranges.patch_begin > (ranges.patch_end - ranges.patch_begin) / 2);
   for (const PatchRun& run : model.partition.runs) CHECK(run.mass > 0);
 }
 
@@ -139,9 +141,10 @@ TEST_CASE("what boundary, slivers and point loads act on is common", "[model][pa
   const Scene scene = lattice(0.1, "", load).read();
   const Model model = build_model(scene);
   const Body& body = model.bodies[0];
+  const CoverRanges& ranges = model.ranges(body);
   const auto is_common = [&](const Carrier& carrier) {
     return std::all_of(carrier.patch.begin(), carrier.patch.end(),
-                       [&](std::uint32_t patch) { return patch >= body.own_end; });
+                       [&](std::uint32_t patch) { return patch >= ranges.own_end; });
   };
   for (const BoundarySide& side : model.sides) {
     REQUIRE(is_common(side.start.carrier));
@@ -149,14 +152,14 @@ TEST_CASE("what boundary, slivers and point loads act on is common", "[model][pa
   }
   REQUIRE_FALSE(model.steady.empty());
   for (const SteadyPatch& steady : model.steady) {
-    REQUIRE(steady.patch >= body.own_end);
+    REQUIRE(steady.patch >= ranges.own_end);
     REQUIRE(is_common(steady.to));
   }
   const MaterialPoint loaded = model.point(0, {5 - body.centre.x, 2 - body.centre.y});
   CHECK(is_common(loaded.carrier));
   const Model without = build_model(lattice(0.1).read());
   const MaterialPoint same = without.point(0, {5 - body.centre.x, 2 - body.centre.y});
-  CHECK(same.carrier.patch[0] < without.bodies[0].own_end);
+  CHECK(same.carrier.patch[0] < without.ranges(without.bodies[0]).own_end);
 }
 
 TEST_CASE("a space-filling curve visits each cell once, always next to the one before",

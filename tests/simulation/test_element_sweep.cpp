@@ -166,9 +166,10 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
           first.apply_and_update(model, mass, supports, conditions, true, one, at_one);
       for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         const Body& body = model.bodies[b];
-        REQUIRE(body.free_end > body.own_end);
-        REQUIRE((body.free_end == body.patch_end) == (body.steady_begin == body.steady_end));
-        REQUIRE(first.updated()[b].end == body.free_end);
+        const CoverRanges& ranges = model.ranges(body);
+        REQUIRE(ranges.free_end > ranges.own_end);
+        REQUIRE((ranges.free_end == ranges.patch_end) == (ranges.steady_begin == ranges.steady_end));
+        REQUIRE(first.updated()[b].end == ranges.free_end);
       }
       const AccelerationWork work =
           accelerate(model, mass, supports, conditions, true, blocks, one, at_one, first.updated());
@@ -194,14 +195,15 @@ TEST_CASE("how subdomains are shared out cannot be seen in the bits", "[continuu
   for (const Scene& scene : {lattice("hypoelastic"), mesh("linear_elastic")}) {
     const Model model = build_model(scene);
     const Body& body = model.bodies[0];
-    const std::uint32_t begin = body.subdomain_begin, end = body.subdomain_end;
+    const CoverRanges& ranges = model.ranges(body);
+    const std::uint32_t begin = ranges.subdomain_begin, end = ranges.subdomain_end;
     REQUIRE(end - begin >= 2);
     const PatchMass mass(model);
     struct Outcome {
       std::vector<Vec2> velocity, force;
       std::vector<double> sums;
     };
-    const auto outcome = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges) {
+    const auto outcome = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& divided) {
       MotionState motion(model);
       disturb(model, motion);
       motion.own_behind = 1e-6;
@@ -211,11 +213,11 @@ TEST_CASE("how subdomains are shared out cannot be seen in the bits", "[continuu
       const SweepStep step{1e-6, true,         true, {1, 1e-6, {0, -9.81}, true}, mass.inverse().data(),
                            0.5,  middle.data()};
       std::vector<SweepSums> sums(model.partition.subdomains.size());
-      for (const auto& [from, to] : ranges) {
+      for (const auto& [from, to] : divided) {
         ElementSweep::Workspace workspace = sweep.workspace();
         sweep.run(model, body, from, to, step, materials, motion, workspace, sums);
       }
-      const std::uint32_t common = body.patch_end - body.own_end;
+      const std::uint32_t common = ranges.patch_end - ranges.own_end;
       sweep.gather(model, body, common / 2, common, motion);
       sweep.gather(model, body, 0, common / 2, motion);
       Outcome result{motion.patch_velocity, motion.patch_force, {}};

@@ -17,8 +17,10 @@ Model small_model(double inertia) {
   Body body;
   body.kinematics = Kinematics::covered;
   body.mass = 10;
-  body.patch_end = 5;
-  body.steady_end = 1;
+  body.ranges = 1;
+  CoverRanges& ranges = model.cover_ranges.emplace_back();
+  ranges.patch_end = 5;
+  ranges.steady_end = 1;
   model.bodies.push_back(body);
   model.patch_star.resize(5);
   const bool tied = std::isinf(inertia);
