@@ -16,8 +16,12 @@ namespace talus {
 /// takes more memory than all else about a pair.
 class ContactSlots {
  public:
-  /// What is kept: as many doubles of a contact as its law asks for.
-  void keep(std::uint32_t doubles_per_contact) { doubles_ = doubles_per_contact; }
+  /// What is kept: as many doubles of a contact as its law asks for, and whether reports are.
+  void keep(std::uint32_t doubles_per_contact, bool reports) {
+    doubles_ = doubles_per_contact;
+    keeps_reports_ = reports;
+  }
+  bool keeps_reports() const { return keeps_reports_; }
 
   /// Closes up all contacts, pair after pair: BodyPair::slot_start counts from the first of all, until the
   /// next lay_out().
@@ -55,16 +59,18 @@ class ContactSlots {
   }
   /// Whether there are slots for so many contacts, and nothing else.
   bool hold(std::size_t contacts) const {
-    return history_.size() == contacts * doubles_ && reports_.size() == contacts &&
+    return history_.size() == contacts * doubles_ && (reports_.size() == contacts || reports_.empty()) &&
            damping_power_.size() == contacts;
   }
+  /// Of so many contacts, while they are closed up and may come from where others were kept.
+  void fit_reports(std::size_t contacts) { reports_.resize(keeps_reports_ ? contacts : 0); }
 
  private:
   /// Calls each(values, values per slot) for all that is kept.
   template <class Each>
   void over_all(const Each& each) {
     each(history_, doubles_);
-    each(reports_, 1);
+    if (keeps_reports_) each(reports_, 1);
     each(damping_power_, 1);
   }
 
@@ -73,6 +79,7 @@ class ContactSlots {
   static void move(Values& values, std::size_t per_slot, std::size_t from, std::size_t count, std::size_t to);
 
   std::uint32_t doubles_ = 0;
+  bool keeps_reports_ = true;
   std::vector<std::size_t> base_{0};         ///< [batch + 1]
   std::vector<std::size_t> former_base_{0};  ///< while slots are moved
   std::vector<std::uint32_t> taken_;         ///< [batch] of its slots; the others wait

@@ -52,10 +52,20 @@ std::uint32_t plain_surface(const Model& model, const Body& body, const std::vec
   return model.surface[body.corner_begin];
 }
 
+/// Of a piece, m.
+double vanishing_depth_at_start(const Model& model, std::uint32_t piece) {
+  std::vector<BoundaryCorner> ring;
+  for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c)
+    ring.push_back(
+        {model.reference_x[c], model.reference_y[c], 0, 0, 0, 0, 0, model.surface[c], model.cut[c]});
+  measure_sides(ring);
+  return vanishing_depth(ring.data(), ring.size());
+}
+
 }  // namespace
 
 ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& workers, bool neighbour_skin,
-                           SimdLevel level)
+                           SimdLevel level, bool seen)
     : law_(nullptr, noop),
       workers_(workers),
       kernels_(kernels::contact_kernels(level)),
@@ -70,11 +80,9 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       drift_(model.bodies.size()) {
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
   if (scene.contact.component == nullptr) return;
-  const MotionState at_start(model);
-  for (std::size_t p = 0; p < model.piece_body.size(); ++p) {
-    const std::uint32_t begin = model.piece_start[p], end = model.piece_start[p + 1];
-    clear_depth_.push_back(clear_share * vanishing_depth(&at_start.corners[begin], end - begin));
-  }
+  clear_depth_.reserve(model.piece_body.size());
+  for (std::uint32_t p = 0; p < model.piece_body.size(); ++p)
+    clear_depth_.push_back(clear_share * vanishing_depth_at_start(model, p));
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   const std::uint32_t history_doubles = law_->doubles_per_contact();
   if (history_doubles > most_history_doubles) {
@@ -83,7 +91,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
         scene.contact.component->file.string(), scene.contact.component->component->name, history_doubles,
         most_history_doubles));
   }
-  slots_.keep(history_doubles);
+  slots_.keep(history_doubles, seen);
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),
                  scene.contact.component->component->interface_parameter_count};
   const std::vector<std::uint32_t> alike = alike_surfaces(interfaces_);
@@ -242,7 +250,8 @@ void ContactStage::ask(const Model& model, const MotionState& motion, const Cond
         gone.travelled == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
         layout_};
     law_->evaluate(batch, {loads_.corner(), found.history.data(),
-                           conditions.observed ? slots_.reports(slot) : nullptr, found.reports.data()});
+                           conditions.observed && slots_.keeps_reports() ? slots_.reports(slot) : nullptr,
+                           found.reports.data()});
     each(number, std::span<const std::uint32_t>(found.active).first(count), found);
   };
   workers_.over(batches, 1, ask_batch);

@@ -26,8 +26,9 @@ namespace talus {
 /// Which bodies may touch, the law's history of each contact, and the forces of a step (Table 1).
 class ContactStage {
  public:
+  /// `seen`: whether anybody will look at reports_of(); else there are none.
   ContactStage(const Scene& scene, const Model& model, Workers& workers, bool neighbour_skin,
-               SimdLevel level = SimdLevel::scalar);
+               SimdLevel level = SimdLevel::scalar, bool seen = true);
 
   const ContactModel* law() const { return law_.get(); }
   const Interfaces& interfaces() const { return interfaces_; }
@@ -54,7 +55,7 @@ class ContactStage {
   struct Conditions {
     double dt;  ///< s, from t_{n-1} to t_n
     bool hold_stick, bonds_form;
-    bool observed = true;  ///< whether anybody will look at reports()
+    bool observed = true;  ///< whether anybody may look at what is found
   };
   /// Evaluates the law on all pairs and adds the loads to the forces on the moving bodies.
   ContactTotals evaluate(const Model& model, MotionState& motion, const Conditions& conditions);
@@ -83,6 +84,7 @@ class ContactStage {
   PiecePairs piece_pairs() const { return {piece_pairs_.data(), first_piece_.data()}; }
   /// [contact] of a pair, of a step that was observed.
   std::span<const ContactReport> reports_of(std::size_t pair) const {
+    if (!slots_.keeps_reports()) return {};
     return {slots_.reports(slot_of(pair)), pairs_[pair].contact_count};
   }
   /// [contact * doubles_per_contact] of a pair.

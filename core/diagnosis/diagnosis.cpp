@@ -32,6 +32,14 @@ DiagnosedStep look_at(const Simulation& simulation) {
     step.body_b = contact.body_b;
     step.place = contact.point;
   }
+  if (step.depth > 0) return step;
+  // Of a state whose run recorded no contacts there is nothing but the deepest.
+  const DeepestOverlap deepest = simulation.deepest_overlap();
+  step.depth = deepest.penetration /
+               std::min(simulation.body_width(deepest.body_a), simulation.body_width(deepest.body_b));
+  step.penetration = deepest.penetration;
+  step.body_a = deepest.body_a;
+  step.body_b = deepest.body_b;
   return step;
 }
 

@@ -10,15 +10,6 @@
 #include <system_error>
 
 namespace talus {
-namespace {
-
-bool sees_contacts(const Monitor& monitor) {
-  return std::any_of(monitor.quantities.begin(), monitor.quantities.end(),
-                     [](const std::string& name) { return find_quantity(name)->of_contacts; });
-}
-
-}  // namespace
-
 std::vector<std::string> monitor_columns(const Scene& scene) {
   std::vector<std::string> columns;
   for (const Monitor& monitor : scene.monitors) {

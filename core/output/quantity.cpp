@@ -1,5 +1,6 @@
 #include "output/quantity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -65,6 +66,11 @@ const Quantity* find_quantity(std::string_view name) {
     if (name == quantity.name) return &quantity;
   }
   return nullptr;
+}
+
+bool sees_contacts(const Monitor& monitor) {
+  return std::any_of(monitor.quantities.begin(), monitor.quantities.end(),
+                     [](const std::string& name) { return find_quantity(name)->of_contacts; });
 }
 
 }  // namespace talus

@@ -38,4 +38,7 @@ std::span<const Quantity> quantities();
 /// nullptr if there is none of that name.
 const Quantity* find_quantity(std::string_view name);
 
+/// Whether it records a quantity of contacts.
+bool sees_contacts(const Monitor& monitor);
+
 }  // namespace talus

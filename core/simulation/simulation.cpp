@@ -356,6 +356,18 @@ std::size_t Simulation::pair_count() const {
   return state_->contacts.pairs().size();
 }
 
+std::size_t Simulation::touching_pair_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      state_->contacts.pairs(), [](const BodyPair& pair) { return pair.contact_count > 0; }));
+}
+
+DeepestOverlap Simulation::deepest_overlap() const {
+  const ContactTotals& totals = state_->contact_totals;
+  const std::uint32_t a = state_->numbering.outside(totals.deepest_a),
+                      b = state_->numbering.outside(totals.deepest_b);
+  return {std::min(a, b), std::max(a, b), totals.penetration};
+}
+
 std::vector<Contact> Simulation::contacts() const {
   std::vector<Contact> result;
   const State& s = *state_;

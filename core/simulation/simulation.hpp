@@ -26,6 +26,8 @@ struct RunSettings {
   bool neighbour_skin = true;  ///< off: candidate pairs are sought anew every step, for checking
   bool profile = false;        ///< take the time of each part of the steps
   double largest_dt = 0;       ///< s, cap on the automatic step; 0 for none
+  /// Nobody asks for contacts() but the frames and monitors of the scene: without either none are kept.
+  bool contacts_as_recorded = false;
 };
 
 /// Energies per metre of thickness, J/m, since t = 0.
@@ -84,6 +86,12 @@ struct Contact {
   Vec2 point, normal_force, tangential_force;  ///< m, N/m on body b
   double penetration;
   bool slipping;
+};
+
+/// The deepest overlap of two bodies at t_n; none of depth 0.
+struct DeepestOverlap {
+  std::uint32_t body_a, body_b;
+  double penetration;  ///< m
 };
 
 /// Islands that slept. The bounds hold where accelerations would not have grown: v + a T and v T + a T²/2 of
@@ -174,7 +182,9 @@ class Simulation {
   std::size_t patch_count() const;
   std::size_t element_count() const;
   std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any
-  std::size_t pair_count() const;             ///< of pieces that are near each other, found last
+  std::size_t pair_count() const;             ///< of bodies that are near each other, found last
+  std::size_t touching_pair_count() const;    ///< of those that the last step found in contact
+  DeepestOverlap deepest_overlap() const;
   std::vector<Contact> contacts() const;
   const EnergyLedger& ledger() const;
 

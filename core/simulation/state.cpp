@@ -1,6 +1,7 @@
 #include "simulation/state.hpp"
 
 #include "output/input_error.hpp"
+#include "output/quantity.hpp"
 #include "parallel/large_pages.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,12 @@ void lay_in_large_pages(const Partition& partition, const MotionState& motion) {
   prefer_large_pages(partition.area);
 }
 
+/// Thin ground is found by them, too.
+bool contacts_are_seen(const Scene& scene, const Model& model, const RunSettings& settings) {
+  return !settings.contacts_as_recorded || scene.output.frames || !model.covered_bodies.empty() ||
+         std::ranges::any_of(scene.monitors, sees_contacts);
+}
+
 }  // namespace
 
 Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
@@ -39,7 +46,8 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       motion(model),
       blocks(model, scene.simd, workers, scene.contact.component != nullptr || scene.sleep),
       mass(model),
-      contacts(scene, model, workers, settings.neighbour_skin, scene.simd),
+      contacts(scene, model, workers, settings.neighbour_skin, scene.simd,
+               contacts_are_seen(scene, model, settings)),
       deformation(scene, model, workers),
       loads(scene, stage, model),
       relaxation(model),

@@ -79,12 +79,7 @@ std::size_t status_entry(const std::string& key) {
 
 PairCounts count_pairs(const Simulation& simulation) {
   PairCounts counts;
-  std::vector<std::uint64_t> touching;
-  for (const Contact& contact : simulation.contacts())
-    touching.push_back(std::uint64_t{contact.body_a} << 32 | contact.body_b);
-  std::sort(touching.begin(), touching.end());
-  counts.overlapping =
-      static_cast<std::size_t>(std::unique(touching.begin(), touching.end()) - touching.begin());
+  counts.overlapping = simulation.touching_pair_count();
 
   const double margin = margin_share * mean_size(simulation.scene());
   std::vector<Box> boxes;

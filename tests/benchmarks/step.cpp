@@ -40,7 +40,7 @@ void measure(benchmark::State& state, const Load& load, double warm_up, int thre
 
   forget_peak();
   const std::size_t before_model = resident_memory();
-  Simulation simulation(std::move(scene), {.threads = threads});
+  Simulation simulation(std::move(scene), {.threads = threads, .contacts_as_recorded = true});
   while (simulation.time() < warm_up) simulation.advance();
   const std::uint64_t before = simulation.summary().steps;
   for (auto iteration : state) {

@@ -19,7 +19,7 @@ struct SomeSlots {
   std::vector<std::uint32_t> batch_begin{0};
   std::mt19937 source{5};
 
-  SomeSlots() { slots.keep(doubles); }
+  SomeSlots() { slots.keep(doubles, true); }
   std::uint32_t random() { return static_cast<std::uint32_t>(source()); }
 
   /// Capacities up to `most`, and no contact in a third of the pairs.

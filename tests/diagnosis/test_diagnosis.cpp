@@ -1,5 +1,6 @@
 #include "diagnosis/diagnosis.hpp"
 
+#include "checkpoint/archive.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -60,4 +61,27 @@ TEST_CASE("A run that nothing is wrong with gets no advice", "[diagnosis]") {
   CHECK_FALSE(diagnosis.first_bad);
   CHECK(diagnosis.trouble.empty());
   CHECK(diagnosis.advice.empty());
+}
+
+TEST_CASE("A state of a run that kept no contacts is looked at like any other", "[diagnosis]") {
+  const WorkingScene text = falling(R"({"end": 0.05})");
+  Simulation seen(text.read(), {}), spare(text.read(), {.contacts_as_recorded = true});
+  for (Simulation* each : {&seen, &spare}) {
+    while (each->deepest_overlap().penetration == 0) REQUIRE(each->advance());
+  }
+  REQUIRE(seen.contacts().size() == 1);
+  CHECK(spare.contacts().empty());
+  CHECK(spare.state_hash() == seen.state_hash());
+  Archive kept;
+  spare.exchange(kept);
+  Simulation again(text.read(), {});
+  Archive taken(kept.bytes());
+  again.exchange(taken);
+  const Diagnosis diagnosis = diagnose(again, 3), wanted = diagnose(seen, 3);
+  REQUIRE(diagnosis.steps.size() == wanted.steps.size());
+  for (std::size_t i = 0; i < wanted.steps.size(); ++i) {
+    CHECK(diagnosis.steps[i].depth == wanted.steps[i].depth);
+    CHECK(diagnosis.steps[i].body_b == wanted.steps[i].body_b);
+  }
+  CHECK(again.contacts().size() == 1);
 }
