@@ -57,6 +57,21 @@ NeighbourSearch::Cell NeighbourSearch::cell_of(double x, double y) const {
   return {number(x), number(y)};
 }
 
+/// In the upper half. Those of 65,536 columns and rows are all different, and so are those of any cells side
+/// by side.
+std::uint64_t NeighbourSearch::tag_of(const Cell& cell) {
+  constexpr std::uint32_t middle = 1U << 15;
+  const std::uint32_t x = static_cast<std::uint32_t>(cell.x) + middle,
+                      y = static_cast<std::uint32_t>(cell.y) + middle;
+  return std::uint64_t{x << 16 ^ x >> 16 ^ y} << 32;
+}
+
+/// Of the cell with the lower left corner of what the boxes of both share.
+std::uint64_t NeighbourSearch::tag_of_shared_corner(std::uint32_t p, std::uint32_t q) const {
+  const Box &a = boxes_[p], &b = boxes_[q];
+  return tag_of(cell_of(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)));
+}
+
 void NeighbourSearch::fill_grid() {
   grid_.clear();
   large_.clear();
@@ -68,7 +83,7 @@ void NeighbourSearch::fill_grid() {
     }
     const Cell low = cell_of(box.low_x, box.low_y), high = cell_of(box.high_x, box.high_y);
     for (std::int32_t x = low.x; x <= high.x; ++x) {
-      for (std::int32_t y = low.y; y <= high.y; ++y) append_to(grid_, {{x, y}, p});
+      for (std::int32_t y = low.y; y <= high.y; ++y) append_to(grid_, tag_of({x, y}) | p);
     }
   }
   std::sort(grid_.begin(), grid_.end());
@@ -123,13 +138,12 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
   measure_boxes(model, motion, skin);
   fill_grid();
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    const auto& [cell, p] = grid_[i];
-    for (std::size_t j = i + 1; j < grid_.size() && grid_[j].cell == cell; ++j) {
-      const std::uint32_t q = grid_[j].piece;
-      // Of the cells that two pieces share, the one with the lower left corner of what their boxes share.
-      const Box &a = boxes_[p], &b = boxes_[q];
-      if (meet(p, q) && cell_of(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)) == cell)
-        offer(model, p, q, candidates);
+    const std::uint64_t tag = grid_[i] >> 32 << 32;
+    const auto p = static_cast<std::uint32_t>(grid_[i]);
+    for (std::size_t j = i + 1; j < grid_.size() && grid_[j] >> 32 << 32 == tag; ++j) {
+      const auto q = static_cast<std::uint32_t>(grid_[j]);
+      // Of the cells that two pieces share they are found in one.
+      if (meet(p, q) && tag_of_shared_corner(p, q) == tag) offer(model, p, q, candidates);
     }
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {

@@ -49,16 +49,14 @@ class NeighbourSearch {
   };
   struct Cell {
     std::int32_t x, y;
-    auto operator<=>(const Cell&) const = default;
   };
-  struct CellEntry {
-    Cell cell;
-    std::uint32_t piece;
-    auto operator<=>(const CellEntry&) const = default;
-  };
+  /// A cell's tag, then a piece that it holds. Cells may share a tag, which only costs.
+  using CellEntry = std::uint64_t;
 
   void measure_boxes(const Model& model, const MotionState& motion, double skin);
   Cell cell_of(double x, double y) const;
+  static std::uint64_t tag_of(const Cell& cell);
+  std::uint64_t tag_of_shared_corner(std::uint32_t p, std::uint32_t q) const;
   void fill_grid();
   static bool may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q);
   bool meet(std::uint32_t p, std::uint32_t q) const;  ///< their boxes

@@ -8,7 +8,7 @@ namespace talus::kernels::TALUS_KERNEL_LEVEL {
 /// ½ pᵀ M q, twice over.
 inline double product(const Block& b, const BodyMotion& p, const BodyMotion& q) {
   const double translation = b.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
-  if (b.rigid) return translation + b.inertia * p.spin * q.spin;
+  if (b.rigid) return translation + b.inertia() * p.spin * q.spin;
   const Matrix2 &r = p.rate, &s = q.rate;
   return translation +
          (r.xx * (b.moment_xx * s.xx + b.moment_xy * s.xy) +
@@ -65,10 +65,10 @@ class BlockVelocities {
     }
     store(next_v, &now.velocity.x);
     if (block.rigid) {
-      const double before = now.spin, next = keep_ * before + gain_ * torque(now, f) / block.inertia;
-      if (even_) across_.rotation += block.inertia * before * next;
+      const double before = now.spin, next = keep_ * before + gain_ * torque(now, f) / block.inertia();
+      if (even_) across_.rotation += block.inertia() * before * next;
       if constexpr (damped) {
-        const double at = block.inertia * (before + share_of_after_ * (next - before));
+        const double at = block.inertia() * (before + share_of_after_ * (next - before));
         behind_.rotation += at * before;
         ahead_.rotation += at * next;
       }

@@ -10,13 +10,16 @@ namespace talus::kernels {
 /// What a step reads of a body.
 struct Block {
   double mass = 0;                                     ///< kg per metre; 0: not a body that moves as a whole
-  double inertia = 0;                                  ///< kg m, of a rigid body
-  double moment_xx = 0, moment_xy = 0, moment_yy = 0;  ///< ρJ, kg m
+  double moment_xx = 0, moment_xy = 0, moment_yy = 0;  ///< ρJ, kg m; of a rigid body see inertia()
   double inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  ///< (ρJ)⁻¹
   std::uint32_t corner_begin = 0;
   std::uint32_t corner_count = 0;  ///< of a body that is one convex piece; else 0
   bool rigid = false;
   bool free = false;  ///< nothing of its motion is prescribed, and its strain is as heavy as it is
+
+  /// kg m, of a rigid body, which has no other moment.
+  double& inertia() { return moment_xx; }
+  double inertia() const { return moment_xx; }
 };
 
 /// m/s, the velocity with which a corner is taken to go on. Any does, so half the digits do.

@@ -56,15 +56,15 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool bound
     if (whole) {
       const double density = body.mass / body.moments.area;
       block.mass = body.mass;
-      block.inertia = body.inertia();
+      block.rigid = body.kinematics == Kinematics::rigid;
       block.moment_xx = density * body.moments.xx;
       block.moment_xy = density * body.moments.xy;
       block.moment_yy = density * body.moments.yy;
+      if (block.rigid) block.inertia() = body.inertia();
       const Matrix2 inverse = body.inverse_moment();
       block.inverse_xx = inverse.xx;
       block.inverse_xy = inverse.xy;
       block.inverse_yy = inverse.yy;
-      block.rigid = body.kinematics == Kinematics::rigid;
       if (body.strain_mass_scale != 1) with_scaled_strain_.push_back(i);
       if (body.piece_end == body.piece_begin + 1) block.corner_count = body.corner_end - body.corner_begin;
     }

@@ -176,13 +176,15 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
   return sum;
 }
 
-std::array<double, 3> Deformation::cauchy(const Model& model, std::size_t body) const {
+std::array<double, 3> Deformation::cauchy(const Model& model, const MotionState& motion,
+                                          std::size_t body) const {
   std::array<double, 3> sum{0, 0, 0};
   const Body& b = model.bodies[body];
-  if (b.element_end == b.element_begin + 1) return cauchy_of_element(model.body_element[b.element_begin]);
+  if (b.element_end == b.element_begin + 1)
+    return cauchy_of_element(model, motion, model.body_element[b.element_begin]);
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
     const std::uint32_t e = model.body_element[i];
-    const std::array<double, 3> stress = cauchy_of_element(e);
+    const std::array<double, 3> stress = cauchy_of_element(model, motion, e);
     for (std::size_t k = 0; k < 3; ++k) sum[k] += model.element_area[e] / b.moments.area * stress[k];
   }
   return sum;

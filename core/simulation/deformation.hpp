@@ -45,10 +45,15 @@ class Deformation {
   /// [body] what the last call did to patches; empty where no body has any.
   const std::vector<UpdatedPatches>& updated() const { return updated_; }
 
-  /// Cauchy stress xx, yy, xy, Pa, of an element, when stresses were last kept.
-  std::array<double, 3> cauchy_of_element(std::size_t element) const { return materials_.cauchy(element); }
-  /// Mean over the area of a body; zero for a body that does not deform.
-  std::array<double, 3> cauchy(const Model& model, std::size_t body) const;
+  /// Cauchy stress xx, yy, xy, Pa, of an element: of one of many, when stresses were last kept.
+  std::array<double, 3> cauchy_of_element(const Model& model, const MotionState& motion,
+                                          std::uint32_t element) const {
+    const std::uint32_t body = model.element_body[element];
+    return model.covered(body) ? materials_.cauchy(element)
+                               : materials_.cauchy(element, motion.bodies[body].h);
+  }
+  /// Mean over the area of a body, as it moves; zero for a body that does not deform.
+  std::array<double, 3> cauchy(const Model& model, const MotionState& motion, std::size_t body) const;
 
   void exchange(Archive& archive) {
     materials_.exchange(archive);

@@ -41,8 +41,8 @@ std::array<double, 3> cauchy_of(const ElementBuffer& buffer, std::uint32_t i) {
 
 }  // namespace
 
-MaterialBatches::MaterialBatches(const Scene& scene, const Model& model)
-    : cauchy_(model.element_body.size(), std::array<double, 3>{}) {
+MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
+  bool remembers = false;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const std::uint32_t begin = model.material_element_start[m], end = model.material_element_start[m + 1];
     if (begin == end) continue;
@@ -52,12 +52,14 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model)
     const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
     const bool needs_previous = material->needs_previous_deformation();
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
+    remembers = remembers || states > 0 || needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
     Batch& batch = batches_.emplace_back(
         Batch{std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states), {}});
     for (int k = 0; k < 4 && needs_previous; ++k)
       batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
   }
+  if (remembers || !model.covered_bodies.empty()) cauchy_.resize(model.element_body.size());
 }
 
 std::uint32_t MaterialBatches::batch_of(std::uint32_t element) const {
@@ -94,7 +96,27 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
   for (int k = 0; k < 4 && batch.needs_previous; ++k)
     std::copy(buffer.deformation[k], buffer.deformation[k] + count, batch.deformation[k].data() + first);
-  for (std::uint32_t i = 0; i < count && keep; ++i) cauchy_[element + i] = cauchy_of(buffer, i);
+  for (std::uint32_t i = 0; i < count && keep && !cauchy_.empty(); ++i)
+    cauchy_[element + i] = cauchy_of(buffer, i);
+}
+
+std::array<double, 3> MaterialBatches::cauchy(std::uint32_t element, const Matrix2& gradient) const {
+  if (!cauchy_.empty()) return cauchy_[element];
+  ElementBuffer buffer;
+  buffer.deformation[0][0] = 1 + gradient.xx, buffer.deformation[1][0] = gradient.xy;
+  buffer.deformation[2][0] = gradient.yx, buffer.deformation[3][0] = 1 + gradient.yy;
+  MaterialBatch input{};
+  MaterialResponse output{};
+  for (int k = 0; k < 4; ++k) {
+    input.deformation[k] = input.previous_deformation[k] = buffer.deformation[k];
+    output.stress[k] = buffer.stress[k];
+  }
+  input.dt = 1;  // what it does to a material without memory
+  input.count = 1;
+  output.energy = buffer.energy;
+  output.dissipated = buffer.dissipated;
+  batches_[batch_of(element)].material->evaluate(input, output);
+  return cauchy_of(buffer, 0);
 }
 
 void MaterialBatches::exchange(Archive& archive) {

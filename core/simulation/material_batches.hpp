@@ -22,7 +22,8 @@ struct ElementBuffer {
 };
 
 /// The materials of the elements that deform, and what is kept of each element from step to step: the states
-/// of its material, the deformation where its material asks for it, and stress for output.
+/// of its material, the deformation where its material asks for it, and stress for output where it does not
+/// follow from how a block is deformed.
 class MaterialBatches {
  public:
   MaterialBatches(const Scene& scene, const Model& model);
@@ -42,8 +43,10 @@ class MaterialBatches {
   void evaluate(std::uint32_t batch, std::uint32_t element, std::uint32_t count, double dt, bool keep,
                 ElementBuffer& buffer);
 
-  /// Cauchy stress xx, yy, xy, Pa, when the element was last kept.
+  /// Cauchy stress xx, yy, xy, Pa, when the element was last kept, of a body of many elements.
   const std::array<double, 3>& cauchy(std::size_t element) const { return cauchy_[element]; }
+  /// The same of an affine block of a displacement gradient.
+  std::array<double, 3> cauchy(std::uint32_t element, const Matrix2& gradient) const;
 
   void exchange(Archive& archive);
 
@@ -61,7 +64,8 @@ class MaterialBatches {
   };
 
   std::vector<Batch> batches_;
-  std::vector<std::array<double, 3>> cauchy_;  ///< [element] as cauchy() says it
+  /// [element] as cauchy() says it; empty where there are only blocks of materials without memory.
+  std::vector<std::array<double, 3>> cauchy_;
 };
 
 }  // namespace talus

@@ -244,7 +244,7 @@ Motion Simulation::body_motion(std::size_t body) const {
     if (s.scene.settle) add(start, s.start_displacement[p]);
     add(speed, s.at_time.patches[p]);
   }
-  const std::array<double, 3> stress = s.deformation.cauchy(s.model, index);
+  const std::array<double, 3> stress = s.deformation.cauchy(s.model, s.motion, index);
   return {{b.centre.x + now.x, b.centre.y + now.y},
           {now.x - start.x, now.y - start.y},
           speed,
@@ -259,28 +259,18 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   const std::uint32_t index = s.numbering.inside(body);
   const Vec2 centre = s.model.bodies[index].centre;
   const Vec2 reference{point_at_start.x - centre.x, point_at_start.y - centre.y};
-  Vec2 now, start, speed;
   std::array<double, 3> stress{};
+  MaterialPoint point{index, reference, {}};
   if (s.model.covered(index)) {
     const std::uint32_t element = s.model.element_at(index, reference);
-    const Carrier carrier = s.model.carrier(s.model.elements[element], reference);
-    now = carried(carrier, s.motion.patch_displacement);
-    start = s.displacement_at_start(carrier);
-    speed = carried(carrier, s.at_time.patches);
-    stress = s.deformation.cauchy_of_element(element);
+    point.carrier = s.model.carrier(s.model.elements[element], reference);
+    stress = s.deformation.cauchy_of_element(s.model, s.motion, element);
   } else {
-    now = displacement(s.motion.bodies[index], reference);
-    start = s.displacement_at_start(index, reference);
-    speed = velocity(s.at_time.bodies[index], reference);
-    stress = s.deformation.cauchy(s.model, index);
+    stress = s.deformation.cauchy(s.model, s.motion, index);
   }
-  return {{point_at_start.x + now.x, point_at_start.y + now.y},
-          {now.x - start.x, now.y - start.y},
-          speed,
-          s.rotation_since_start(index),
-          stress[0],
-          stress[1],
-          stress[2]};
+  const PartPoint at = s.point(point, point_at_start);
+  return {at.position, at.displacement, at.velocity, s.rotation_since_start(index),
+          stress[0],   stress[1],       stress[2]};
 }
 
 std::vector<BodyPart> Simulation::parts(std::size_t body) const {
@@ -289,12 +279,11 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
   const Body& b = s.model.bodies[index];
   std::vector<BodyPart> parts;
   if (!s.model.covered(index)) {
-    BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, index)});
+    BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, s.motion, index)});
     const auto add_loop = [&](const Loop& loop) {
       std::vector<PartPoint>& points = whole.loops.emplace_back();
       for (const Vec2 vertex : loop.vertices) {
-        const Motion point = point_motion(body, vertex);
-        points.push_back({point.position, point.displacement, point.velocity});
+        points.push_back(s.point({index, {vertex.x - b.centre.x, vertex.y - b.centre.y}, {}}, vertex));
       }
     };
     add_loop(s.scene.bodies[index].outer);
@@ -304,17 +293,14 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
   parts.reserve(b.element_end - b.element_begin);
   for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
     const std::uint32_t element = s.model.body_element[i];
-    BodyPart& part = parts.emplace_back(BodyPart{{}, s.deformation.cauchy_of_element(element)});
+    BodyPart& part =
+        parts.emplace_back(BodyPart{{}, s.deformation.cauchy_of_element(s.model, s.motion, element)});
     for (const Ring& ring : s.model.element_region[element]) {
       std::vector<PartPoint>& points = part.loops.emplace_back();
       points.reserve(ring.size());
       for (const Vec2 at : ring) {
-        const Carrier carrier = s.model.carrier(s.model.elements[element], at);
-        const Vec2 now = carried(carrier, s.motion.patch_displacement),
-                   start = s.displacement_at_start(carrier);
-        points.push_back({{b.centre.x + at.x + now.x, b.centre.y + at.y + now.y},
-                          {now.x - start.x, now.y - start.y},
-                          carried(carrier, s.at_time.patches)});
+        points.push_back(s.point({index, at, s.model.carrier(s.model.elements[element], at)},
+                                 {b.centre.x + at.x, b.centre.y + at.y}));
       }
     }
   }

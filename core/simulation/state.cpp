@@ -346,6 +346,16 @@ double Simulation::State::rotation_since_start(std::uint32_t body) const {
   return rotation[body] - (rotation_at_start.empty() ? 0 : rotation_at_start[body]);
 }
 
+PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const {
+  const bool whole = at.carrier.patch[0] == no_patch;
+  const Vec2 now = motion.displacement(at),
+             before =
+                 whole ? displacement_at_start(at.body, at.reference) : displacement_at_start(at.carrier),
+             speed = whole ? velocity(at_time.bodies[at.body], at.reference)
+                           : carried(at.carrier, at_time.patches);
+  return {{as_drawn.x + now.x, as_drawn.y + now.y}, {now.x - before.x, now.y - before.y}, speed};
+}
+
 Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
   return start.empty() ? Vec2{} : displacement(start[body], reference);
 }

@@ -123,6 +123,7 @@ struct Simulation::State {
   void warn_of_thin_ground();
   void bring_rotation_up_to_date();
   double rotation_since_start(std::uint32_t body) const;  ///< rad
+  PartPoint point(const MaterialPoint& at, Vec2 as_drawn) const;
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();

@@ -42,8 +42,8 @@ PatchTest patch_test(const Scene& scene, double modulus, double ratio) {
   const double volume = (1 + h.xx) * (1 + h.yy) - h.xy * h.yx;
   const Stress cauchy{(p[0] * (1 + h.xx) + p[2] * h.xy) / volume, (p[2] * h.yx + p[1] * (1 + h.yy)) / volume,
                       (p[0] * h.yx + p[2] * (1 + h.yy) + p[2] * (1 + h.xx) + p[1] * h.xy) / 2 / volume};
-  for (std::size_t e = 0; e < model.element_body.size(); ++e) {
-    const Stress found = deformation.cauchy_of_element(e);
+  for (std::uint32_t e = 0; e < model.element_body.size(); ++e) {
+    const Stress found = deformation.cauchy_of_element(model, motion, e);
     for (std::size_t k = 0; k < 3; ++k)
       result.stress = std::max(result.stress, std::abs(found[k] - cauchy[k]) / std::abs(cauchy[0]));
   }
@@ -93,8 +93,8 @@ double strain_of_turns(const Scene& scene, double modulus) {
     const double angle = 2 * std::numbers::pi * (i % steps) / steps;
     impose(model, {std::cos(angle) - 1, -std::sin(angle), std::sin(angle), std::cos(angle) - 1}, motion);
     deformation.apply(model, motion, i == 0 ? 0 : 1e-3);
-    for (std::size_t e = 0; e < model.element_body.size(); ++e) {
-      for (const double stress : deformation.cauchy_of_element(e))
+    for (std::uint32_t e = 0; e < model.element_body.size(); ++e) {
+      for (const double stress : deformation.cauchy_of_element(model, motion, e))
         largest = std::max(largest, std::abs(stress));
     }
   }

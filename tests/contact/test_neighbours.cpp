@@ -228,3 +228,16 @@ TEST_CASE("bodies that touch are neighbours even without a skin", "[contact][nei
   NeighbourSearch(bodies.model).find(bodies.model, at_start(bodies.model), 0, found);
   CHECK(found == std::vector<Candidate>{{0, 1}});
 }
+
+TEST_CASE("cells so far apart that they share a tag are told apart", "[contact][neighbours]") {
+  // Squares that are alike: cells are half as large again as they are from corner to corner.
+  constexpr double cell = 1.5 * 1.4142135623730951, columns = 65536;
+  Random random{std::mt19937(3)};
+  Crowd result;
+  for (int i = 0; i < 300; ++i) {
+    const double far = i % 3 * columns * cell;
+    result.add_body({random(0, 20) + far, random(0, 20)}, Kinematics::affine);
+    result.add_piece({0, 0}, 0.5, 0.5, 4);
+  }
+  check_against_brute_force(result.model, 0.1);
+}

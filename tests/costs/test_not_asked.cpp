@@ -62,8 +62,9 @@ Course course_of(const WorkingScene& text) {
   while (simulation.advance()) {
   }
   CHECK(simulation.summary().steps == steps);
+  const AskedSoFar in_steps = asked();
   const Motion motion = simulation.body_motion(0);
-  return {asked(), std::to_string(motion.position.y) + " " + std::to_string(motion.velocity.y)};
+  return {in_steps, std::to_string(motion.position.y) + " " + std::to_string(motion.velocity.y)};
 }
 
 std::string falling_block() {

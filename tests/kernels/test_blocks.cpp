@@ -28,7 +28,6 @@ struct SomeBlocks {
     for (std::size_t b = 0; b < count; ++b) {
       Block& block = blocks[b];
       block.mass = 2 + random();
-      block.inertia = 2 + random();
       block.moment_xx = 3 + random(), block.moment_xy = random(), block.moment_yy = 3 + random();
       block.inverse_xx = 3 + random(), block.inverse_xy = random(), block.inverse_yy = 3 + random();
       block.rigid = b % 3 == 1;
