@@ -23,7 +23,6 @@ AreaMoments moments_about(const SceneBody& body, Vec2 centre) {
 }
 
 void set_mass(Body& body, double density) {
-  body.density = density;
   body.mass = body.contact_mass = density * body.moments.area;
 }
 
@@ -186,7 +185,7 @@ void measure_widths(Model& model) {
 }  // namespace
 
 Matrix2 Body::inverse_moment() const {
-  const double determinant = density * (moments.xx * moments.yy - moments.xy * moments.xy);
+  const double determinant = density() * (moments.xx * moments.yy - moments.xy * moments.xy);
   return {moments.yy / determinant, -moments.xy / determinant, -moments.xy / determinant,
           moments.xx / determinant};
 }

@@ -84,7 +84,6 @@ struct Body {
   std::uint32_t ranges = 0;   ///< entry of Model::cover_ranges
   Vec2 centre;                ///< m, centroid at the start, without the scene's origin
   double mass = 0;            ///< kg per metre of thickness
-  double density = 0;         ///< kg/m³
   CentralMoments moments{};
   double strain_mass_scale = 1;  ///< see StrainMass (affine)
   double width = 0;         ///< m, smallest; of many elements: the smaller of that and their typical size
@@ -93,8 +92,9 @@ struct Body {
   std::uint32_t piece_begin = 0, piece_end = 0;
   std::uint32_t element_begin = 0, element_end = 0;  ///< entries of Model::body_element
 
+  double density() const { return mass / moments.area; }  ///< kg/m³
   /// kg m, about the centroid (rigid).
-  double inertia() const { return density * (moments.xx + moments.yy); }
+  double inertia() const { return density() * (moments.xx + moments.yy); }
   /// (ρJ)⁻¹, 1/(kg m): the deformation part of the consistent mass (Eq. 17).
   Matrix2 inverse_moment() const;
 };

@@ -46,8 +46,8 @@ struct BodyForce {
 struct MotionState {
   explicit MotionState(const Model& model);
 
-  std::vector<BodyMotion> bodies;  ///< of a body of many elements: the mean, as of the last average()
-  std::vector<BodyForce> forces;
+  std::vector<BodyMotion> bodies;        ///< of a body of many elements: the mean, as of the last average()
+  std::vector<BodyForce> forces;         ///< or velocities at t_n, see velocity_at_step()
   std::vector<Vec2> patch_displacement;  ///< [patch] m
   std::vector<Vec2> patch_velocity;      ///< [patch] m/s
   std::vector<Vec2> patch_force;         ///< [patch] N/m
@@ -64,6 +64,13 @@ struct MotionState {
   /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
   void clear_forces(const Model& model);
   void clear_patch_forces(const Model& model);  ///< those on patches alone
+
+  /// The velocity at t_n of a body that moves as a whole, after a step that is looked at: it takes the place
+  /// of the force, which has done all it does by then.
+  BodyVelocity velocity_at_step(std::size_t body) const { return {forces[body].force, forces[body].moment}; }
+  void leave_velocity(std::size_t body, const BodyVelocity& at_step) {
+    forces[body] = {at_step.velocity, at_step.rate};
+  }
 
   /// Takes all velocities away.
   void stop();

@@ -54,7 +54,7 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool bound
     block.corner_begin = body.corner_begin;
     const bool whole = body.kinematics == Kinematics::rigid || body.kinematics == Kinematics::affine;
     if (whole) {
-      const double density = body.mass / body.moments.area;
+      const double density = body.density();
       block.mass = body.mass;
       block.rigid = body.kinematics == Kinematics::rigid;
       block.moment_xx = density * body.moments.xx;
@@ -176,16 +176,16 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
 
 /// Bodies [begin, end) of a chunk; of their motion at t_n the velocity is kept.
 void Blocks::accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
-                                 MotionState& motion, BodyVelocity* middle, kernels::BlockSums& sums) const {
+                                 MotionState& motion, kernels::BlockSums& sums) const {
   std::array<BodyMotion, chunk> at_step;
   kernels_.accelerate(blocks_.data() + begin, motion.forces.data() + begin, update,
                       motion.bodies.data() + begin, at_step.data(), 0, end - begin, sums);
   for (std::size_t i = begin; i < end; ++i) {
-    if (blocks_[i].free) middle[i] = {at_step[i - begin].velocity, at_step[i - begin].rate};
+    if (blocks_[i].free) motion.leave_velocity(i, {at_step[i - begin].velocity, at_step[i - begin].rate});
   }
 }
 
-void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
+void Blocks::accelerate(const StepConditions& conditions, bool observed, MotionState& motion,
                         AccelerationWork& work) {
   const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
   const double half_damping = conditions.damping * dt / 2;
@@ -200,8 +200,8 @@ void Blocks::accelerate(const StepConditions& conditions, MotionState& motion, B
   over_chunks([&](std::size_t number, std::span<const Stretch> stretches) {
     kernels::BlockSums here;
     for (const auto [begin, end] : stretches) {
-      if (middle != nullptr)
-        accelerate_and_keep(begin, end, update, motion, middle, here);
+      if (observed)
+        accelerate_and_keep(begin, end, update, motion, here);
       else
         kernels_.accelerate(blocks_.data(), motion.forces.data(), update, motion.bodies.data(), nullptr,
                             begin, end, here);

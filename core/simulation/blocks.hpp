@@ -26,8 +26,8 @@ class Blocks {
   /// `drift`: ContactStage::drift().
   MotionState::Speeds follow(const Model& model, std::span<const kernels::CornerDrift> drift,
                              MotionState& motion);
-  /// Eqs. 23–24 of the free ones. `middle` gets velocities at t_n unless null. Adds to `work`.
-  void accelerate(const StepConditions& conditions, MotionState& motion, BodyVelocity* middle,
+  /// Eqs. 23–24 of the free ones. `observed`: velocities at t_n are left in place of forces. Adds to `work`.
+  void accelerate(const StepConditions& conditions, bool observed, MotionState& motion,
                   AccelerationWork& work);
   /// Calls each(body, work) for the free ones with scaled strain that are awake, on all threads, and adds to
   /// `work` in their order.
@@ -43,7 +43,7 @@ class Blocks {
   };
   void find_stretches();
   void accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
-                           MotionState& motion, BodyVelocity* middle, kernels::BlockSums& sums) const;
+                           MotionState& motion, kernels::BlockSums& sums) const;
   /// Calls `each` with the index of an entry of chunks_ and its stretches, in their order.
   template <class Each>
   void over_chunks(const Each& each);

@@ -84,7 +84,7 @@ Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, 
 Deformation::Energy Deformation::apply_and_update(const Model& model, const PatchMass& mass,
                                                   std::span<const Support> supports,
                                                   const StepConditions& conditions, bool keep,
-                                                  MotionState& motion, VelocitiesAtStep& at_step) {
+                                                  MotionState& motion, std::vector<Vec2>& at_step) {
   const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
@@ -95,7 +95,7 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
         update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
     step.inverse_mass = mass.inverse().data();
     step.share = share_of_after(conditions);
-    step.middle = at_step.patches.data();
+    step.middle = at_step.data();
     sweep(model, b, step, motion);
   }
   motion.own_behind = 0;

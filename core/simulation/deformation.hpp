@@ -33,7 +33,7 @@ class Deformation {
   /// where it is kept.
   Energy apply_and_update(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                           const StepConditions& conditions, bool keep, MotionState& motion,
-                          VelocitiesAtStep& at_step);
+                          std::vector<Vec2>& at_step);
 
   /// [body] whether it stands and needs no forces, not 0; empty: none.
   void set_asleep(const Model& model, std::span<const std::uint32_t> asleep);

@@ -41,7 +41,7 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
   const double yx = q.yx * inverse.xx + q.yy * inverse.yx, yy = q.yx * inverse.xy + q.yy * inverse.yy;
   Matrix2 acceleration{xx, xy, yx, yy};
   if (body.strain_mass_scale != 1)
-    acceleration = StrainMass(body, body.mass / body.moments.area, motion.h).acceleration(acceleration);
+    acceleration = StrainMass(body, body.density(), motion.h).acceleration(acceleration);
   motion.rate.xx = update.keep * motion.rate.xx + update.gain * acceleration.xx;
   motion.rate.xy = update.keep * motion.rate.xy + update.gain * acceleration.xy;
   motion.rate.yx = update.keep * motion.rate.yx + update.gain * acceleration.yx;
@@ -105,23 +105,23 @@ double kinetic_at_step(const Body& body, double density, const StepConditions& c
   return kinetic_energy(body, density, side, mirrored(at_step, side));
 }
 
-/// A body that moves as a whole, with supports or scaled strain, which the kernels do not know. `at_step`
-/// gets its velocity at t_n.
-void accelerate_whole(const Body& body, const BodyForce& force, const Support& support,
-                      const StepConditions& conditions, Update update, BodyMotion& now, BodyVelocity& at_step,
+/// A body that moves as a whole, with supports or scaled strain, which the kernels do not know.
+void accelerate_whole(const Body& body, std::uint32_t index, const Support& support,
+                      const StepConditions& conditions, Update update, MotionState& motion,
                       AccelerationWork& work) {
-  const double density = body.mass / body.moments.area;
+  BodyMotion& now = motion.bodies[index];
+  const double density = body.density();
   const bool scaled = body.strain_mass_scale != 1;
   // The terms of the turning frame, half of them before the forces and half after: both velocities are then
   // those at t_n but for the forces, which the energy needs.
   if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_behind / 2);
   const BodyMotion before = now;
-  accelerate_freely(body, force, conditions, update, now);
+  accelerate_freely(body, motion.forces[index], conditions, update, now);
   impose_supports(body, density, support, conditions, update, before, now, work);
   BodyMotion middle = velocity_at_step(before, now, conditions);
   work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
   if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
-  at_step = {middle.velocity, middle.rate};
+  motion.leave_velocity(index, {middle.velocity, middle.rate});
   work.external_work += body.mass * gravity_work(conditions, before.velocity);
   if (conditions.damping > 0) {
     work.damping_loss +=
@@ -146,10 +146,10 @@ double kinetic_energy(const Body& body, double density, const BodyMotion& p, con
 
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
-                            MotionState& motion, VelocitiesAtStep& at_step,
+                            MotionState& motion, std::vector<Vec2>& at_step,
                             std::span<const UpdatedPatches> updated) {
   AccelerationWork work;
-  blocks.accelerate(conditions, motion, observed ? at_step.bodies.data() : nullptr, work);
+  blocks.accelerate(conditions, observed, motion, work);
   const Update update = update_of(conditions);
   for (const std::uint32_t i : blocks.left_to_others()) {
     if (blocks.is_asleep(i)) continue;
@@ -159,19 +159,17 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
                          updated.empty() ? UpdatedPatches{} : updated[i], motion, at_step, work);
       continue;
     }
-    accelerate_whole(body, motion.forces[i], support_of(supports, i), conditions, update, motion.bodies[i],
-                     at_step.bodies[i], work);
+    accelerate_whole(body, i, support_of(supports, i), conditions, update, motion, work);
   }
   blocks.over_scaled(work, [&](std::uint32_t i, AccelerationWork& part) {
-    accelerate_whole(model.bodies[i], motion.forces[i], support_of(supports, i), conditions, update,
-                     motion.bodies[i], at_step.bodies[i], part);
+    accelerate_whole(model.bodies[i], i, support_of(supports, i), conditions, update, motion, part);
   });
   return work;
 }
 
 Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment) {
   const CentralMoments& m = body.moments;
-  const double density = body.mass / m.area;
+  const double density = body.density();
   const Matrix2 spin = unit_spin(h);
   // The reaction is that of a spin, λ W F ρJ, with the work of the moments on a unit of spin.
   const double work = moment.xx * spin.xx + moment.xy * spin.xy + moment.yx * spin.yx + moment.yy * spin.yy;

@@ -26,12 +26,6 @@ struct StepConditions {
   bool supports_driven;          ///< false: driven supports stand still (settling)
 };
 
-/// Velocities at t_n.
-struct VelocitiesAtStep {
-  std::vector<BodyVelocity> bodies;
-  std::vector<Vec2> patches;  ///< [patch] m/s
-};
-
 class Blocks;
 
 /// Patches of a body that a sweep over its elements has brought to v₊ already, and sums over them.
@@ -40,12 +34,12 @@ struct UpdatedPatches {
   kernels::VelocitySums sums{};
 };
 
-/// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. The forces on patches are used up.
-/// Velocities at t_n of bodies that move as a whole are kept only where they are `observed`. `updated`:
-/// [body] what is done already; empty: nothing.
+/// v₊ = v₋ + Δt M⁻¹ f (Eqs. 23–24), with what supports prescribe. All forces are used up. Velocities at t_n
+/// of bodies that move as a whole are left (MotionState::velocity_at_step) only where they are `observed`;
+/// those of patches in `at_step` [patch], m/s. `updated`: [body] what is done already; empty: nothing.
 AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span<const Support> supports,
                             const StepConditions& conditions, bool observed, Blocks& blocks,
-                            MotionState& motion, VelocitiesAtStep& at_step,
+                            MotionState& motion, std::vector<Vec2>& at_step,
                             std::span<const UpdatedPatches> updated = {});
 
 /// The moments that deform a body, J/m, without what turns it as a whole about its centroid: where its

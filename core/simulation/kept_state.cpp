@@ -39,6 +39,7 @@ void Simulation::State::exchange_clock(Archive& archive) {
   archive(time);
   archive(dt_behind);
   archive(fresh);
+  archive(velocities_left);
   archive(started);
   archive(output);
   archive(plan);
@@ -57,8 +58,8 @@ void Simulation::State::exchange_books(Archive& archive) {
   archive(rotation_at_start);
   if (!rotation_at_start.empty() && rotation_at_start.size() != rotation.size()) Archive::refuse();
   archive(turned);
-  archive.of_known_size(at_time.bodies);
-  archive.of_known_size(at_time.patches);
+  archive.of_known_size(motion.forces);  // velocities at t_n
+  archive.of_known_size(patch_velocity_at_step);
   archive(ledger);
   archive(contact_totals);
   archive(strain_energy);

@@ -86,14 +86,14 @@ void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_
 
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
                         const Support& support, const StepConditions& conditions, const Update& update,
-                        const UpdatedPatches& updated, MotionState& motion, VelocitiesAtStep& at_step,
+                        const UpdatedPatches& updated, MotionState& motion, std::vector<Vec2>& at_step,
                         AccelerationWork& work) {
   const Body& body = model.bodies[index];
   const CoverRanges& ranges = model.ranges(body);
   const std::uint32_t first = std::max(updated.end, ranges.patch_begin);
   const std::size_t count = ranges.patch_end - first;
   const std::span<Vec2> after(motion.patch_velocity.data() + first, count);
-  const std::span<Vec2> middle(at_step.patches.data() + first, count);
+  const std::span<Vec2> middle(at_step.data() + first, count);
   static thread_local std::vector<Vec2> before;
   before.assign(after.begin(), after.end());
 

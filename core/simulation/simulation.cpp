@@ -242,7 +242,7 @@ Motion Simulation::body_motion(std::size_t body) const {
     const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
     add(now, s.motion.patch_displacement[p]);
     if (s.scene.settle) add(start, s.start_displacement[p]);
-    add(speed, s.at_time.patches[p]);
+    add(speed, s.patch_velocity_at_step[p]);
   }
   const std::array<double, 3> stress = s.deformation.cauchy(s.model, s.motion, index);
   return {{b.centre.x + now.x, b.centre.y + now.y},

@@ -176,7 +176,7 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     Island& island = islands_[entry[of] - 1];
     const Body& body = model.bodies[b];
     BodyMotion& now = parts.motion.bodies[b];
-    const double density = body.mass / body.moments.area;
+    const double density = body.density();
     BodyMotion middle = now;
     middle.velocity = {(before_[i].velocity.x + now.velocity.x) / 2,
                        (before_[i].velocity.y + now.velocity.y) / 2};
@@ -192,7 +192,7 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     now.velocity = {};
     now.rate = {};
     now.spin = 0;
-    parts.at_time.bodies[b] = {};
+    parts.motion.leave_velocity(b, {});
     for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c)
       parts.motion.corners[c].vx = parts.motion.corners[c].vy = 0;
   }

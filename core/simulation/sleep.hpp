@@ -26,7 +26,6 @@ class Sleep {
     ContactStage& contacts;
     Deformation& deformation;
     MotionState& motion;
-    VelocitiesAtStep& at_time;
   };
 
   /// From now on these loads and supports hold; wakes all.

@@ -53,7 +53,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       relaxation(model),
       votes(scene, stage, model, contacts),
       critical(votes.anyhow()),
-      at_time{std::vector<BodyVelocity>(model.bodies.size()), std::vector<Vec2>(model.patch_star.size())},
+      patch_velocity_at_step(model.patch_star.size()),
       start(scene.settle ? model.bodies.size() : 0),
       start_displacement(scene.settle ? model.patch_star.size() : 0),
       rotation(model.bodies.size(), 0.0),
@@ -107,7 +107,7 @@ void Simulation::State::begin(double end) {
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
-  to_be_seen = false;
+  to_be_seen = velocities_left = false;
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
   motion.clear_patch_forces(model);
@@ -135,12 +135,12 @@ void Simulation::State::forces() {
   const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
-                                                 at_time);  // Eqs. 18, 23–24
+                                                 patch_velocity_at_step);  // Eqs. 18, 23–24
   if (sleep) strain_energy.stored += sleep->strain_energy();
   profile.enter(Phase::velocities);
   if (may_sleep_now) sleep->choose(time, sleeping_parts());
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
-                                           at_time, deformation.updated());  // Eqs. 23–24
+                                           patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   check_materials();
   ledger.book(contact_totals, strain_energy, loads, work, interface_work);
@@ -153,7 +153,7 @@ void Simulation::State::forces() {
   if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop();
   profile.enter(Phase::checks);
   fresh = false;
-  to_be_seen = observed;
+  to_be_seen = velocities_left = observed;
 }
 
 /// Islands go to sleep in steps as long as the one before, of which velocities at t_n are kept.
@@ -351,8 +351,9 @@ PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const
   const Vec2 now = motion.displacement(at),
              before =
                  whole ? displacement_at_start(at.body, at.reference) : displacement_at_start(at.carrier),
-             speed = whole ? velocity(at_time.bodies[at.body], at.reference)
-                           : carried(at.carrier, at_time.patches);
+             speed = !whole            ? carried(at.carrier, patch_velocity_at_step)
+                     : velocities_left ? velocity(motion.velocity_at_step(at.body), at.reference)
+                                       : velocity(motion.bodies[at.body], at.reference);
   return {{as_drawn.x + now.x, as_drawn.y + now.y}, {now.x - before.x, now.y - before.y}, speed};
 }
 
@@ -407,7 +408,7 @@ void Simulation::State::stop() {
     const std::span<const Vec2> patches(motion.patch_velocity.data() + ranges.patch_begin,
                                         ranges.patch_end - ranges.patch_begin);
     driven += model.covered(i) ? mass.product(model, i, patches, patches) / 2
-                               : kinetic_energy(body, body.mass / body.moments.area, now, now);
+                               : kinetic_energy(body, body.density(), now, now);
   }
   ledger.lose_kinetic(driven);
 }

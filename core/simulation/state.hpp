@@ -45,13 +45,14 @@ struct Simulation::State {
   double time = 0;       ///< s, t_n
   double dt_behind = 0;  ///< s, t_n − t_{n−1}; 0 at the start
   bool settling = false;
-  bool settle_over = false;  ///< there is nothing left of the settle stage
-  bool fresh = true;         ///< no contact has been evaluated yet
-  bool observed = true;      ///< somebody may look at t_n
-  bool to_be_seen = false;   ///< t_n was observed, and all of it is there
-  bool started = false;      ///< t = 0 has been reached
-  bool watched = false;      ///< the coming step is the last before the state is looked at
-  std::uint64_t output = 0;  ///< number of the output time reached last
+  bool settle_over = false;      ///< there is nothing left of the settle stage
+  bool fresh = true;             ///< no contact has been evaluated yet
+  bool observed = true;          ///< somebody may look at t_n
+  bool to_be_seen = false;       ///< t_n was observed, and all of it is there
+  bool velocities_left = false;  ///< MotionState::velocity_at_step() is that of t_n
+  bool started = false;          ///< t = 0 has been reached
+  bool watched = false;          ///< the coming step is the last before the state is looked at
+  std::uint64_t output = 0;      ///< number of the output time reached last
 
   /// Equal steps to a time that is hit exactly.
   struct Plan {
@@ -64,7 +65,7 @@ struct Simulation::State {
   Limit limit = Limit::none;    ///< what made the step of the plan as short as it is
   CriticalStep planned_with{};  ///< the bound then
 
-  VelocitiesAtStep at_time;
+  std::vector<Vec2> patch_velocity_at_step;  ///< [patch] m/s, at t_n
   // Motion at t = 0, which displacements count from; empty where nothing settles.
   std::vector<BodyMotion> start;
   std::vector<Vec2> start_displacement;  ///< [patch]
@@ -109,7 +110,7 @@ struct Simulation::State {
   double evaluate_contacts();
   void touch_as_drawn();
   bool may_sleep() const;
-  Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion, at_time}; }
+  Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion}; }
   double energy_floor() const;
   void remember_deepest();
   void check_numbers() const;

@@ -48,6 +48,6 @@ void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_
 /// The patches of a body of many elements that are left.
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
                         const StepConditions& conditions, const Update& update, const UpdatedPatches& updated,
-                        MotionState& motion, VelocitiesAtStep& at_step, AccelerationWork& work);
+                        MotionState& motion, std::vector<Vec2>& at_step, AccelerationWork& work);
 
 }  // namespace talus
