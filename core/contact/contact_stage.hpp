@@ -194,7 +194,7 @@ class ContactStage {
   NeighbourSearch search_;
   std::vector<Candidate> candidates_;
   std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
-  std::vector<BodyPair> pairs_;
+  InLines<BodyPair> pairs_;
   /// What goes with a pair in contact from one search to the next.
   struct FormerPair {
     std::uint32_t a, b, slot_start, slot_capacity, contact_count;
