@@ -57,8 +57,7 @@ NeighbourSearch::Cell NeighbourSearch::cell_of(double x, double y) const {
   return {number(x), number(y)};
 }
 
-/// In the upper half. Those of 65,536 columns and rows are all different, and so are those of any cells side
-/// by side.
+/// In the upper half. Those of 65,536 columns and rows about the middle are all different.
 std::uint64_t NeighbourSearch::tag_of(const Cell& cell) {
   constexpr std::uint32_t middle = 1U << 15;
   const std::uint32_t x = static_cast<std::uint32_t>(cell.x) + middle,
@@ -154,6 +153,8 @@ void NeighbourSearch::find(const Model& model, const MotionState& motion, double
     }
   }
   std::sort(candidates.begin(), candidates.end(), CandidateOrder(model));
+  // Where cells side by side share a tag, pieces in both are found more than once.
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 }
 
 }  // namespace talus

@@ -33,7 +33,7 @@ DiagnosedStep look_at(const Simulation& simulation) {
     step.place = contact.point;
   }
   if (step.depth > 0) return step;
-  // Of a state whose run recorded no contacts there is nothing but the deepest.
+  // Of a state whose run recorded no contacts there is nothing but the deepest of those that were not asleep.
   const DeepestOverlap deepest = simulation.deepest_overlap();
   step.depth = deepest.penetration /
                std::min(simulation.body_width(deepest.body_a), simulation.body_width(deepest.body_b));

@@ -214,6 +214,11 @@ void Blocks::accelerate(const StepConditions& conditions, bool observed, MotionS
     work.damping_loss += conditions.damping * part.behind.all() * conditions.dt_behind / 2;
     work.damping_loss_ahead += conditions.damping * part.ahead.all() * conditions.dt_ahead / 2;
   }
+  // What loads a body that sleeps is used up by nobody.
+  if (!observed || asleep_.empty()) return;
+  for (const std::uint32_t body : moving_) {
+    if (is_asleep(body)) motion.leave_velocity(body, {});
+  }
 }
 
 }  // namespace talus

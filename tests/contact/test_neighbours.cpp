@@ -241,3 +241,17 @@ TEST_CASE("cells so far apart that they share a tag are told apart", "[contact][
   }
   check_against_brute_force(result.model, 0.1);
 }
+
+TEST_CASE("pieces in cells side by side that share a tag are found once", "[contact][neighbours]") {
+  // Where both numbers of cells, counted from the first body, go below -32,768.
+  constexpr double cell = 1.5 * 1.4142135623730951, corner = -32768 * cell;
+  Random random{std::mt19937(4)};
+  Crowd result;
+  result.add_body({0, 0}, Kinematics::affine);
+  result.add_piece({0, 0}, 0.5, 0.5, 4);
+  for (int i = 0; i < 60; ++i) {
+    result.add_body({corner + random(-3, 3), corner + random(-3, 3)}, Kinematics::affine);
+    result.add_piece({0, 0}, 0.5, 0.5, 4);
+  }
+  check_against_brute_force(result.model, 0.1);
+}

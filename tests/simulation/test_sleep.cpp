@@ -236,3 +236,34 @@ TEST_CASE("what is driven or loaded by the clock stays awake, and so does what i
   CHECK(simulation.body_motion(number_of(simulation, "lone")).velocity.y == 0);
   CHECK(simulation.body_motion(number_of(simulation, "b0_2")).velocity.y != 0);
 }
+
+TEST_CASE("a body that sleeps under a load stands still to whoever looks", "[simulation][sleep]") {
+  const char* loads[] = {
+      R"("loads": [{"body": "block", "point": [0.5, 1], "force": [0, -5000]}],)",
+      R"("surface_loads": [{"body": "block", "surface": "top", "pressure": 700}],)",
+      R"("prescribed": [{"body": "block", "surface": "top", "stiffness": 1e8, "displacement": [1e-5, null]}],)"};
+  for (const char* load : loads) {
+    for (const char* held : {"", R"(, "fix": ["rotation"])"}) {
+      CAPTURE(load, held);
+      WorkingScene text;
+      text.gravity = "[0, -10]";
+      text.interface =
+          R"("normal_stiffness": 1e10, "tangential_stiffness": 1e10, "friction_angle": 30,
+             "normal_damping": 0.3, "tangential_damping": 0.3)";
+      text.bodies = box("base", -1, -1, 2, 0, R"("fixed": true)") + ", " +
+                    box("block", 0, 0, 1, 1, fmt::format(R"("surfaces": {{"top": [2]}}{})", held));
+      text.rest = load + std::string(R"("damping": 290, "sleep": {"after": 0.05},)");
+      text.time = R"({"end": 0.5})";
+      text.output = R"({"history": 0.1})";
+      Simulation simulation(text.read(), {});
+      finish(simulation);
+      REQUIRE(simulation.summary().sleep->bodies_asleep == 1);
+      const Motion motion = simulation.body_motion(1);
+      CHECK(motion.velocity.x == 0);
+      CHECK(motion.velocity.y == 0);
+      const Motion corner = simulation.point_motion(1, {1, 1});
+      CHECK(corner.velocity.x == 0);
+      CHECK(corner.velocity.y == 0);
+    }
+  }
+}

@@ -61,8 +61,8 @@ struct BodyPair {
   std::uint32_t slot_capacity;  ///< how many contacts it can hold; 0 until it has some
   std::uint32_t
       contact_count;  ///< contacts of the previous step: slots [slot_start, slot_start + contact_count)
-  std::uint8_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of one
-                                  ///< surface class all around; else 0
+  std::uint8_t plain_corners[2];  ///< of a and of b, where both bodies are plain: one convex piece of 255
+                                  ///< corners at most, of one surface class all around; else 0
   std::uint16_t master_halves;    ///< see master_share()
 
   // What laws look up for every pair of plain bodies, from the arrays that hold it for all.
@@ -114,7 +114,8 @@ struct PiecePairs {
     const PiecePairs& all_;
     const BodyPair& pair_;
   };
-  OfPair of(const BodyPair& pair) const { return {*this, pair}; }
+  OfPair of(const BodyPair& pair) const& { return {*this, pair}; }
+  OfPair of(const BodyPair& pair) const&& = delete;  ///< loops would outlive it
 };
 
 /// What a law keeps of a batch of pairs from step to step, such as which of them it evaluates side by side:

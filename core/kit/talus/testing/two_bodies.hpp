@@ -59,6 +59,8 @@ class TwoBodies {
     const double clear_depth[2] = {0, 0};
     history_.resize(std::size_t{capacity} * doubles);
     BodyPair pair{};
+    if (master_share != 0 && master_share != 0.5 && master_share != 1)
+      throw std::invalid_argument("master_share of TwoBodies is none of 0, 0.5 and 1");
     pair.b = 1;
     pair.master_halves = static_cast<std::uint16_t>(2 * master_share);
     pair.reduced_mass = static_cast<float>(reduced_mass);
