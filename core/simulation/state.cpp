@@ -384,8 +384,8 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
   body.velocity = velocity;
   body.spin = spin;
   body.rate = spin_rate(body);
-  for (std::uint32_t p = model.ranges(model.bodies[index]).patch_begin;
-       p < model.ranges(model.bodies[index]).patch_end; ++p) {
+  const CoverRanges& ranges = model.ranges(model.bodies[index]);
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
                   model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
     motion.patch_velocity[p] = {velocity.x - spin * at.y, velocity.y + spin * at.x};
