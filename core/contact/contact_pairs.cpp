@@ -12,9 +12,16 @@ namespace {
 /// overlap, vertex_edge a hundredth of an edge.
 constexpr double sight = 0.02;
 
+constexpr std::size_t pieces_at_once = 64;
+
+/// Whether somebody has to (see MotionState::shape_piece()): bodies of one piece are shaped as they move.
+bool shaped_by_piece(const Model& model, std::uint32_t body) {
+  return model.moves(body) && !model.one_piece(model.bodies[body]);
+}
+
 }  // namespace
 
-bool ContactStage::find_pairs(const Model& model, const MotionState& motion, double dt,
+bool ContactStage::find_pairs(const Model& model, MotionState& motion, double dt,
                               const MotionState::Speeds& speeds) {
   if (!law_) return false;
   // Both bodies of a pair may have moved; the boxes leave half of what is near to each.
@@ -24,12 +31,14 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   way_.travelled += 2 * dt * speeds.closing();
   const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
   if (!due && !every_step) {
+    shape_listed(model, motion);
     if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
         worth_dividing_anew(pairs_, workers_.threads(), batch_begin_, other_batches_))
       share_anew(model);
     drift_on(model, motion);
     return false;
   }
+  shape_all(model, motion);
   if (due) {
     search_.find(model, motion, near_, candidates_);
     keep_touching(model);
@@ -44,6 +53,37 @@ bool ContactStage::find_pairs(const Model& model, const MotionState& motion, dou
   rebuild_pairs(model);
   ++searches_;
   return due;
+}
+
+/// Where a search looks.
+void ContactStage::shape_all(const Model& model, MotionState& motion) {
+  for (const std::uint32_t b : model.moving_bodies) {
+    const Body& body = model.bodies[b];
+    if (!shaped_by_piece(model, b)) continue;
+    workers_.over(body.piece_end - body.piece_begin, pieces_at_once,
+                  [&](std::size_t, std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i)
+                      motion.shape_piece(model, static_cast<std::uint32_t>(body.piece_begin + i));
+                  });
+  }
+}
+
+/// Where a law looks until the next search.
+void ContactStage::shape_listed(const Model& model, MotionState& motion) {
+  workers_.over(to_shape_.size(), pieces_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) motion.shape_piece(model, to_shape_[i]);
+  });
+}
+
+void ContactStage::list_to_shape(const Model& model) {
+  to_shape_.clear();
+  for (const PiecePair& pieces : piece_pairs_) {
+    for (const std::uint32_t piece : {pieces.a, pieces.b}) {
+      if (shaped_by_piece(model, model.piece_body[piece])) append_to(to_shape_, piece);
+    }
+  }
+  std::sort(to_shape_.begin(), to_shape_.end());
+  to_shape_.erase(std::unique(to_shape_.begin(), to_shape_.end()), to_shape_.end());
 }
 
 /// A bond may span any gap: two bodies in contact stay a pair, however far apart they are. As long as pieces
@@ -121,6 +161,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
     piece_pairs_.push_back({piece_a, piece_b, 0});
     pairs_.back().piece_pair_range[1] = static_cast<std::uint32_t>(piece_pairs_.size());
   }
+  list_to_shape(model);
   describe_plain_pairs(model);
   ask_again_.assign(pairs_.size(), 0);
   approach_.assign(pairs_.size(), 0);

@@ -38,9 +38,9 @@ class ContactStage {
 
   /// Seeks the candidates anew when something may have moved through the skin since the last search. The last
   /// call was `dt` ago, s, and bodies have moved at `speeds` since. True when who is near whom was found
-  /// anew: at the same times whether a skin is used or not.
-  bool find_pairs(const Model& model, const MotionState& motion, double dt,
-                  const MotionState::Speeds& speeds);
+  /// anew: at the same times whether a skin is used or not. Pieces that pairs list are shaped (see
+  /// MotionState), others only for a search.
+  bool find_pairs(const Model& model, MotionState& motion, double dt, const MotionState::Speeds& speeds);
 
   /// Bodies were put elsewhere: the next call seeks their neighbours.
   void seek_anew() { slack_ = 0; }
@@ -100,9 +100,12 @@ class ContactStage {
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
+  void shape_all(const Model& model, MotionState& motion);
+  void shape_listed(const Model& model, MotionState& motion);
+  void list_to_shape(const Model& model);
   void rebuild_pairs(const Model& model);
   void take_drift(const Model& model, const MotionState& motion);
-  kernels::Drift drift_of(const Body& body, const MotionState& motion);
+  kernels::Drift drift_of(const Model& model, const Body& body, const MotionState& motion);
   void drift_on(const Model& model, const MotionState& motion);
   void share_anew(const Model& model);
   void lay_out_loads(const Model& model);
@@ -201,6 +204,7 @@ class ContactStage {
   };
   std::vector<FormerPair> former_pairs_;
   std::vector<PiecePair> piece_pairs_;         ///< PiecePairs::listed
+  std::vector<std::uint32_t> to_shape_;        ///< pieces, of those that do not move whole with their bodies
   std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
   /// [batch, at least; or empty] what the law keeps of it; not where only some pairs are asked about again
   std::vector<std::unique_ptr<BatchPlan>> plans_;

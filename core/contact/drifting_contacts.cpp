@@ -18,27 +18,27 @@ void ContactStage::take_drift(const Model& model, const MotionState& motion) {
                 [&](std::size_t, std::size_t begin, std::size_t end) {
                   for (std::size_t i = begin; i < end; ++i) {
                     const std::uint32_t b = model.moving_bodies[i];
-                    drift_[b] = drift_of(model.bodies[b], motion);
+                    drift_[b] = drift_of(model, model.bodies[b], motion);
                   }
                 });
   way_ = {};
   steps_adrift_ = 0;
 }
 
-kernels::Drift ContactStage::drift_of(const Body& body, const MotionState& motion) {
-  double x = 0, y = 0;
-  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+kernels::Drift ContactStage::drift_of(const Model& model, const Body& body, const MotionState& motion) {
+  double x = 0, y = 0, count = 0;
+  model.visit_boundary(body, [&](std::uint32_t c) {
     const BoundaryCorner& corner = motion.corners[c];
     corner_drift_[c] = {static_cast<float>(corner.vx), static_cast<float>(corner.vy)};
     x += corner_drift_[c].x, y += corner_drift_[c].y;
-  }
-  const double count = body.corner_end - body.corner_begin;
+    ++count;
+  });
   kernels::Drift all{static_cast<float>(x / count), static_cast<float>(y / count)};
   double squared = 0;
-  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+  model.visit_boundary(body, [&](std::uint32_t c) {
     const double dx = double{corner_drift_[c].x} - all.x, dy = double{corner_drift_[c].y} - all.y;
     squared = std::max(squared, dx * dx + dy * dy);
-  }
+  });
   all.spread = kernels::at_least(std::sqrt(squared));
   return all;
 }

@@ -23,6 +23,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   if (archive.reading()) {
     if (!fits(model)) Archive::refuse();
     slots_.fit_reports(pairs_.empty() ? 0 : pairs_.back().slot_start + pairs_.back().contact_count);
+    list_to_shape(model);
     describe_plain_pairs(model);
     for (BodyPair& pair : pairs_) pair.slot_capacity = pair.contact_count;
     lay_out_loads(model);

@@ -102,6 +102,33 @@ void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index, c
   ranges.side_end = static_cast<std::uint32_t>(model.sides.size());
 }
 
+void list_outer_patches(Model& model, const Body& body, const std::vector<Element>& elements,
+                        const double* area) {
+  constexpr double rounding = 1e-12;  // of all that was added up
+  CoverRanges& ranges = model.ranges(body);
+  struct Sum {
+    Vec2 all{0, 0};
+    double size = 0;
+  };
+  std::vector<Sum> sums(ranges.patch_end - ranges.patch_begin);
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 g = elements[e].gradient[i];
+      Sum& sum = sums[elements[e].patch[i] - ranges.patch_begin];
+      sum.all = {sum.all.x + area[e] * g.x, sum.all.y + area[e] * g.y};
+      sum.size += area[e] * (std::abs(g.x) + std::abs(g.y));
+    }
+  }
+  const double whole = std::accumulate(area, area + elements.size(), 0.0);
+  ranges.outer_begin = static_cast<std::uint32_t>(model.outer_patches.size());
+  for (std::uint32_t p = 0; p < sums.size(); ++p) {
+    const auto& [all, size] = sums[p];
+    if (!(std::abs(all.x) + std::abs(all.y) > rounding * size)) continue;
+    model.outer_patches.push_back({ranges.patch_begin + p, {all.x / whole, all.y / whole}});
+  }
+  ranges.outer_end = static_cast<std::uint32_t>(model.outer_patches.size());
+}
+
 /// A tied patch hands its mass to those it follows; one with added inertia keeps its own.
 void steady_patches(Model& model, Body& body, const LaidCover& cover, double density) {
   CoverRanges& ranges = model.ranges(body);
@@ -261,6 +288,7 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   }
   steady_patches(model, body, cover, density);
   check_masses(model, body, scene_body);
+  list_outer_patches(model, body, elements, model.element_area.data() + first);
   fill_triangles(model, body, elements, model.element_area.data() + first);
   list_slots(model.partition, ranges);
   add_sides(model, scene_body, index, cover, elements);

@@ -61,11 +61,20 @@ struct Strip {
   std::uint32_t competitor_begin, competitor_end;  ///< entries of Model::competitors
 };
 
+/// A patch at the boundary of a body and what its displacement adds to the mean displacement gradient,
+/// 1/m: Σ area ∇w of its elements over the area of the body. Of a patch whose elements close around it that
+/// is zero.
+struct OuterPatch {
+  std::uint32_t patch;
+  Vec2 mean_gradient;
+};
+
 /// Where in the Model's arrays a body of many elements has what it consists of; of others all is empty.
 struct CoverRanges {
   std::uint32_t side_begin = 0, side_end = 0;      ///< sides of its boundary
   std::uint32_t patch_begin = 0, patch_end = 0;    ///< its patches
   std::uint32_t steady_begin = 0, steady_end = 0;  ///< its steadied patches
+  std::uint32_t outer_begin = 0, outer_end = 0;    ///< its outer patches
 
   // How it is divided (see Partition).
   std::uint32_t own_end = 0;       ///< patches from patch_begin on that are own
@@ -133,6 +142,7 @@ struct Model {
   std::vector<double> patch_mass;  ///< [patch] kg per metre of thickness, row sum of Eq. 17
   std::vector<double> row_sum;     ///< [patch] the same before anything was done about slivers
   std::vector<SteadyPatch> steady;
+  std::vector<OuterPatch> outer_patches;
   Partition partition;
 
   // Elements of the bodies that deform, sorted by material.
@@ -155,6 +165,17 @@ struct Model {
   /// Whether the body is convex itself.
   bool one_piece(const Body& body) const {
     return body.piece_end == body.piece_begin + 1 && is_strip[body.piece_begin] == 0;
+  }
+
+  /// Calls visit(corner) for those that say where the boundary of a body is and how fast: of a strip the
+  /// first alone, for the second is the first of the next one, and the others are led by both.
+  template <class Visit>
+  void visit_boundary(const Body& body, const Visit& visit) const {
+    for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
+      const std::uint32_t begin = piece_start[piece],
+                          end = is_strip[piece] != 0 ? begin + 1 : piece_start[piece + 1];
+      for (std::uint32_t c = begin; c < end; ++c) visit(c);
+    }
   }
 
   /// The first of a body's elements, where those of a covered body lie side by side.

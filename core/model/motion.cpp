@@ -22,7 +22,8 @@ MotionState::MotionState(const Model& model)
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     move_corners(model, i);
-    shape_boundary(model, i);
+    for (std::uint32_t piece = model.bodies[i].piece_begin; piece < model.bodies[i].piece_end; ++piece)
+      shape_piece(model, piece);
   }
 }
 
@@ -91,40 +92,29 @@ void MotionState::stop() {
   for (Vec2& velocity : patch_velocity) velocity = {};
 }
 
-Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) {
-  Matrix2 h;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2 d = patch_values[element.patch[i]], g = element.gradient[i];
-    h.xx += d.x * g.x;
-    h.xy += d.x * g.y;
-    h.yx += d.y * g.x;
-    h.yy += d.y * g.y;
-  }
-  return h;
-}
-
 void MotionState::average(const Model& model, std::uint32_t index) {
   const Body& body = model.bodies[index];
   const CoverRanges& ranges = model.ranges(body);
   BodyMotion mean;
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-    const double share = model.patch_mass[p] / body.mass;
-    mean.u.x += share * patch_displacement[p].x;
-    mean.u.y += share * patch_displacement[p].y;
-    mean.velocity.x += share * patch_velocity[p].x;
-    mean.velocity.y += share * patch_velocity[p].y;
+    const double mass = model.patch_mass[p];
+    mean.u.x += mass * patch_displacement[p].x;
+    mean.u.y += mass * patch_displacement[p].y;
+    mean.velocity.x += mass * patch_velocity[p].x;
+    mean.velocity.y += mass * patch_velocity[p].y;
   }
-  const auto add = [](Matrix2& sum, double share, const Matrix2& h) {
-    sum.xx += share * h.xx;
-    sum.xy += share * h.xy;
-    sum.yx += share * h.yx;
-    sum.yy += share * h.yy;
+  mean.u = {mean.u.x / body.mass, mean.u.y / body.mass};
+  mean.velocity = {mean.velocity.x / body.mass, mean.velocity.y / body.mass};
+  const auto add = [](Matrix2& sum, Vec2 value, Vec2 g) {
+    sum.xx += value.x * g.x;
+    sum.xy += value.x * g.y;
+    sum.yx += value.y * g.x;
+    sum.yy += value.y * g.y;
   };
-  for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
-    const std::uint32_t element = model.body_element[i];
-    const double share = model.element_area[element] / body.moments.area;
-    add(mean.h, share, gradient(model.elements[element], patch_displacement));
-    add(mean.rate, share, gradient(model.elements[element], patch_velocity));
+  for (std::uint32_t i = ranges.outer_begin; i < ranges.outer_end; ++i) {
+    const auto& [patch, g] = model.outer_patches[i];
+    add(mean.h, minus(patch_displacement[patch], mean.u), g);
+    add(mean.rate, minus(patch_velocity[patch], mean.velocity), g);
   }
   bodies[index] = mean;
 }
@@ -133,17 +123,15 @@ void MotionState::move_boundary(const Model& model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (model.bodies[i].kinematics == Kinematics::fixed) continue;
     move_corners(model, i);
-    shape_boundary(model, i);
+    for (std::uint32_t piece = model.bodies[i].piece_begin; piece < model.bodies[i].piece_end; ++piece)
+      shape_piece(model, piece);
   }
 }
 
-void MotionState::shape_boundary(const Model& model, std::size_t body) {
-  if (model.bodies[body].kinematics == Kinematics::covered)
-    shape_strips(model, static_cast<std::uint32_t>(body), *this);
-  for (std::uint32_t piece = model.bodies[body].piece_begin; piece < model.bodies[body].piece_end; ++piece) {
-    const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
-    measure_sides(std::span(corners).subspan(begin, end - begin));
-  }
+void MotionState::shape_piece(const Model& model, std::uint32_t piece) {
+  if (model.is_strip[piece] != 0) shape_strip(model, piece, *this);
+  const std::uint32_t begin = model.piece_start[piece], end = model.piece_start[piece + 1];
+  measure_sides(std::span(corners).subspan(begin, end - begin));
 }
 
 void MotionState::move_corners(const Model& model, std::size_t index) {

@@ -57,9 +57,10 @@ struct MotionState {
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);
   /// The same of one body: where its corners are and how fast, of a body of many elements the ends of its
-  /// sides; then the rest of its strips, tangents and lengths, which contact reads.
+  /// sides.
   void move_corners(const Model& model, std::size_t body);
-  void shape_boundary(const Model& model, std::size_t body);
+  /// Then what contact reads of a piece: the rest of a strip, tangents and lengths of sides.
+  void shape_piece(const Model& model, std::uint32_t piece);
 
   /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
   void clear_forces(const Model& model);
@@ -76,7 +77,7 @@ struct MotionState {
   void stop();
 
   /// Brings `bodies` of a body of many elements up to date: motion of the centre of mass, mean gradient and
-  /// mean rate over its area.
+  /// mean rate over its area, which follow from the patches around it (see OuterPatch).
   void average(const Model& model, std::uint32_t body);
 
   /// What does not follow from the rest at the next step.
@@ -110,7 +111,24 @@ void measure_sides(std::span<BoundaryCorner> ring);
 Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values);
 
 /// Displacement gradient of an element of many, or of its rate: Σ d_i ⊗ ∇w_i.
-Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values);
+inline Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) {
+  Matrix2 h;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 d = patch_values[element.patch[i]], g = element.gradient[i];
+    h.xx += d.x * g.x;
+    h.xy += d.x * g.y;
+    h.yx += d.y * g.x;
+    h.yy += d.y * g.y;
+  }
+  return h;
+}
+
+/// Of an element of any body that deforms.
+inline Matrix2 gradient_of_element(const Model& model, const MotionState& motion, std::uint32_t element) {
+  const std::uint32_t body = model.element_body[element];
+  return model.covered(body) ? gradient(model.elements[element], motion.patch_displacement)
+                             : motion.bodies[body].h;
+}
 
 /// ΣF r × F of a body force about the displaced centroid, N.
 inline double torque(const BodyMotion& motion, const BodyForce& force) {

@@ -251,50 +251,48 @@ void add_strips(Model& model, std::uint32_t index) {
   ranges.contact_depth = depths[depths.size() / 2];
 }
 
-void shape_strips(const Model& model, std::uint32_t index, MotionState& motion) {
-  const Body& body = model.bodies[index];
-  const CoverRanges& ranges = model.ranges(body);
+void shape_strip(const Model& model, std::uint32_t piece, MotionState& motion) {
+  const Body& body = model.bodies[model.piece_body[piece]];
+  const std::uint32_t first_side = model.ranges(body).side_begin;
   const auto first_corner = [&](std::uint32_t side) {
-    return model.piece_start[body.piece_begin + side - ranges.side_begin];
+    return model.piece_start[body.piece_begin + side - first_side];
   };
   const auto corner = [&](std::uint32_t c) { return Vec2{motion.corners[c].x, motion.corners[c].y}; };
   const auto tangent_of = [&](std::uint32_t side) {
     const std::uint32_t c = first_corner(side);
     return unit(minus(corner(c + 1), corner(c)));
   };
-  for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
-    const Strip& strip = model.strips[model.piece_strip[piece]];
-    const std::uint32_t first = model.piece_start[piece], last = model.piece_start[piece + 1];
-    const Vec2 start = corner(first), end = corner(first + 1), span = minus(end, start);
-    const Vec2 tangent = unit(span), normal = inward(tangent);
-    const Vec2 at_start = miter(tangent_of(model.previous_side[strip.side]), tangent);
-    const Vec2 at_end = miter(tangent, tangent_of(model.next_side[strip.side]));
-    double start_depth = strip.depth, end_depth = strip.depth;
-    // The bisectors meet where the strip has no width left.
-    const double start_behind = dot(at_start, normal), end_behind = dot(at_end, normal);
-    if (start_behind > 0 && end_behind > 0) {
-      const double closing = dot(at_start, tangent) / start_behind - dot(at_end, tangent) / end_behind;
-      const double length = std::sqrt(dot(span, span));
-      if (closing > 0) {
-        start_depth = std::min(start_depth, length / closing / start_behind);
-        end_depth = std::min(end_depth, length / closing / end_behind);
-      }
+  const Strip& strip = model.strips[model.piece_strip[piece]];
+  const std::uint32_t first = model.piece_start[piece], last = model.piece_start[piece + 1];
+  const Vec2 start = corner(first), end = corner(first + 1), span = minus(end, start);
+  const Vec2 tangent = unit(span), normal = inward(tangent);
+  const Vec2 at_start = miter(tangent_of(model.previous_side[strip.side]), tangent);
+  const Vec2 at_end = miter(tangent, tangent_of(model.next_side[strip.side]));
+  double start_depth = strip.depth, end_depth = strip.depth;
+  // The bisectors meet where the strip has no width left.
+  const double start_behind = dot(at_start, normal), end_behind = dot(at_end, normal);
+  if (start_behind > 0 && end_behind > 0) {
+    const double closing = dot(at_start, tangent) / start_behind - dot(at_end, tangent) / end_behind;
+    const double length = std::sqrt(dot(span, span));
+    if (closing > 0) {
+      start_depth = std::min(start_depth, length / closing / start_behind);
+      end_depth = std::min(end_depth, length / closing / end_behind);
     }
-    Corners corners{start, end, along(end, end_depth, at_end), along(start, start_depth, at_start)};
-    std::size_t count = 4;
-    for (std::uint32_t i = strip.competitor_begin; i < strip.competitor_end; ++i) {
-      const std::uint32_t other = model.competitors[i];
-      count = cut_towards(corners, count, tangent, corner(first_corner(other)), tangent_of(other));
-    }
-    join_coincident(corners, count, strip.depth);
-    for (std::uint32_t c = first + 2; c < last; ++c) {
-      const std::size_t from = std::min<std::size_t>(c - first, count - 1);
-      const BoundaryCorner& led_by = motion.corners[from == 2 ? first + 1 : first];
-      motion.corners[c].x = corners[from].x;
-      motion.corners[c].y = corners[from].y;
-      motion.corners[c].vx = led_by.vx;
-      motion.corners[c].vy = led_by.vy;
-    }
+  }
+  Corners corners{start, end, along(end, end_depth, at_end), along(start, start_depth, at_start)};
+  std::size_t count = 4;
+  for (std::uint32_t i = strip.competitor_begin; i < strip.competitor_end; ++i) {
+    const std::uint32_t other = model.competitors[i];
+    count = cut_towards(corners, count, tangent, corner(first_corner(other)), tangent_of(other));
+  }
+  join_coincident(corners, count, strip.depth);
+  for (std::uint32_t c = first + 2; c < last; ++c) {
+    const std::size_t from = std::min<std::size_t>(c - first, count - 1);
+    const BoundaryCorner& led_by = motion.corners[from == 2 ? first + 1 : first];
+    motion.corners[c].x = corners[from].x;
+    motion.corners[c].y = corners[from].y;
+    motion.corners[c].vx = led_by.vx;
+    motion.corners[c].vy = led_by.vy;
   }
 }
 

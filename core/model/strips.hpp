@@ -11,8 +11,9 @@ namespace talus {
 /// that no overlap counts twice where bisectors cross behind a short side.
 void add_strips(Model& model, std::uint32_t body);
 
-/// Strips follow the boundary; corners 0 and 1 of each must be in place. The other corners move with these.
-void shape_strips(const Model& model, std::uint32_t body, MotionState& motion);
+/// A strip follows the boundary; corners 0 and 1 of it and of all others of its body must be in place. Its
+/// other corners move with these.
+void shape_strip(const Model& model, std::uint32_t piece, MotionState& motion);
 
 /// Whether a side lies so near to that of a strip, along a stretch without reflex corner, that their strips
 /// only meet inside the body.

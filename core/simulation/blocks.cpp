@@ -15,16 +15,12 @@ void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift)
   all.add({squared, squared, v.x, v.x, v.y, v.y, off_x * off_x + off_y * off_y, true});
 }
 
-/// Of a strip the first corner alone: the second is the first of the next one.
 kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& motion, const Body& body,
                                          std::span<const kernels::CornerDrift> drift) {
   kernels::SpeedExtremes all;
-  for (std::uint32_t piece = body.piece_begin; piece < body.piece_end; ++piece) {
-    const std::uint32_t begin = model.piece_start[piece],
-                        end = model.is_strip[piece] != 0 ? begin + 1 : model.piece_start[piece + 1];
-    for (std::uint32_t c = begin; c < end; ++c)
-      add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
-  }
+  model.visit_boundary(body, [&](std::uint32_t c) {
+    add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
+  });
   return all;
 }
 
@@ -164,7 +160,6 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
       continue;
     }
     motion.move_corners(model, body);
-    if (boundary_seen_) motion.shape_boundary(model, body);
     all.add(speeds_of_corners(model, motion, model.bodies[body], drift));
   }
   if (!all.any) return {};

@@ -34,8 +34,14 @@ void Simulation::State::check_numbers() const {
                   time, plan.dt, critical.dt));
 }
 
-/// At output times. What is turned inside out passes through others unseen.
+/// At output times, and not where a checkpoint happens to be due. What is turned inside out passes through
+/// others unseen.
 void Simulation::State::check_shapes() const {
+  if (plan.done == 0 && strain_energy.inside_out) refuse_inside_out();
+}
+
+/// If anything is.
+void Simulation::State::refuse_inside_out() const {
   const auto refuse = [&](std::uint32_t body, const char* what) {
     throw NumericalTrouble(
         fmt::format("{} turned inside out at t = {:.9g} s: {}; its material is too soft for what acts on it, "
@@ -57,6 +63,7 @@ void Simulation::State::check_shapes() const {
 void Simulation::State::check_law() const {
   const LawFault& fault = contacts.fault();
   if (fault.found.empty()) return;
+  if (plan.done == 0) refuse_inside_out();  // then it is not for the law to be mended
   const RegisteredComponent& law = *scene.contact.component;
   const std::string where =
       fault.of_pair ? fmt::format(" between {} and {}", place(fault.a), place(fault.b)) : "";

@@ -34,6 +34,10 @@ bool wants_all_sums(const StepConditions& c) {
   return c.dt_behind != c.dt_ahead || c.damping > 0 || pulled;
 }
 
+Deformation::Energy sum_of(const Deformation::Energy& p, const Deformation::Energy& q) {
+  return {p.stored + q.stored, p.dissipated + q.dissipated, p.inside_out || q.inside_out};
+}
+
 }  // namespace
 
 Deformation::Deformation(const Scene& scene, const Model& model, Workers& workers)
@@ -77,8 +81,7 @@ Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, 
   for (UpdatedPatches& updated : updated_) updated = {};
   for (const std::uint32_t b : model.covered_bodies) sweep(model, b, {.dt = dt, .keep = keep}, motion);
   motion.own_behind = 0;
-  const Energy many = energy_of_sweeps(model);
-  return {blocks.stored + many.stored, blocks.dissipated + many.dissipated};
+  return sum_of(blocks, energy_of_sweeps(model));
 }
 
 Deformation::Energy Deformation::apply_and_update(const Model& model, const PatchMass& mass,
@@ -99,8 +102,7 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
     sweep(model, b, step, motion);
   }
   motion.own_behind = 0;
-  const Energy many = energy_of_sweeps(model);
-  return {blocks.stored + many.stored, blocks.dissipated + many.dissipated};
+  return sum_of(blocks, energy_of_sweeps(model));
 }
 
 void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep& step, MotionState& motion) {
@@ -132,8 +134,7 @@ void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep
 Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {
   Energy total;
   for (std::size_t s = 0; s < model.partition.subdomains.size(); ++s) {
-    total.stored += sums_[s].stored;
-    total.dissipated += sums_[s].dissipated;
+    total = sum_of(total, {sums_[s].stored, sums_[s].dissipated, sums_[s].inside_out});
   }
   return total;
 }
@@ -144,10 +145,7 @@ Deformation::Energy Deformation::apply_to_blocks(const Model& model, double dt, 
     block_energies_[entry] = apply_to(model, blocks_[entry], dt, keep, workspaces_[thread].elements, motion);
   });
   Energy total;
-  for (const Energy& part : block_energies_) {
-    total.stored += part.stored;
-    total.dissipated += part.dissipated;
-  }
+  for (const Energy& part : block_energies_) total = sum_of(total, part);
   return total;
 }
 
@@ -161,7 +159,7 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     buffer.deformation[3][i] = 1 + h.yy;
   }
   materials_.evaluate(blocks.batch, blocks.element, blocks.count, dt, keep, buffer);
-  Energy sum;
+  Energy sum{0, 0, keep && buffer.any_inside_out(blocks.count)};
   for (std::uint32_t i = 0; i < blocks.count; ++i) {
     const double area = model.element_area[blocks.element + i];
     sum.stored += area * buffer.energy[i];
@@ -182,10 +180,18 @@ std::array<double, 3> Deformation::cauchy(const Model& model, const MotionState&
   const Body& b = model.bodies[body];
   if (b.element_end == b.element_begin + 1)
     return cauchy_of_element(model, motion, model.body_element[b.element_begin]);
-  for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
-    const std::uint32_t e = model.body_element[i];
-    const std::array<double, 3> stress = cauchy_of_element(model, motion, e);
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += model.element_area[e] / b.moments.area * stress[k];
+  std::array<Matrix2, ElementBuffer::most> gradients;
+  std::array<std::array<double, 3>, ElementBuffer::most> stress;
+  const std::uint32_t count = b.element_end - b.element_begin;
+  for (std::uint32_t begin = 0; begin < count; begin += ElementBuffer::most) {
+    const std::uint32_t first = model.first_element(b) + begin,
+                        here = std::min(ElementBuffer::most, count - begin);
+    for (std::uint32_t i = 0; i < here; ++i) gradients[i] = gradient_of_element(model, motion, first + i);
+    materials_.cauchy(first, std::span(gradients).first(here), stress.data());
+    for (std::uint32_t i = 0; i < here; ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[k] += model.element_area[first + i] / b.moments.area * stress[i][k];
+    }
   }
   return sum;
 }

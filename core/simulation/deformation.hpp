@@ -20,8 +20,9 @@ class Deformation {
   Deformation(const Scene& scene, const Model& model, Workers& workers);
 
   struct Energy {
-    double stored = 0;      ///< J/m
-    double dissipated = 0;  ///< J/m since t_{n-1}
+    double stored = 0;        ///< J/m
+    double dissipated = 0;    ///< J/m since t_{n-1}
+    bool inside_out = false;  ///< the area of an element became negative; looked for where stress is kept
   };
   /// f_int (Eq. 18): adds −A P ∇w to the forces of the patches, −A P to the moments of affine blocks. Own
   /// patches of bodies of many elements (see Partition) catch up with MotionState::own_behind; their forces
@@ -45,12 +46,13 @@ class Deformation {
   /// [body] what the last call did to patches; empty where no body has any.
   const std::vector<UpdatedPatches>& updated() const { return updated_; }
 
-  /// Cauchy stress xx, yy, xy, Pa, of an element: of one of many, when stresses were last kept.
+  /// Cauchy stress xx, yy, xy, Pa, of an element; of materials with a memory, when stresses were last kept.
   std::array<double, 3> cauchy_of_element(const Model& model, const MotionState& motion,
                                           std::uint32_t element) const {
-    const std::uint32_t body = model.element_body[element];
-    return model.covered(body) ? materials_.cauchy(element)
-                               : materials_.cauchy(element, motion.bodies[body].h);
+    std::array<double, 3> stress;
+    const Matrix2 h = gradient_of_element(model, motion, element);
+    materials_.cauchy(element, {&h, 1}, &stress);
+    return stress;
   }
   /// Mean over the area of a body, as it moves; zero for a body that does not deform.
   std::array<double, 3> cauchy(const Model& model, const MotionState& motion, std::size_t body) const;

@@ -158,7 +158,6 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
       const RowsAhead ahead = rows_ahead(motion, partition, entered);
       const bool cells = chunk.cells > 0;
       const TriangleChain chain = cells ? TriangleChain{} : chain_of(partition, chunk, at, force, ahead);
-      // A material that goes on to the forces by itself is asked for stress where that is kept alone.
       if (sweeping == nullptr || step.keep) {
         if (cells) {
           kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
@@ -166,6 +165,10 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
         } else {
           kernels_.chain_gradient(chain, f.data());
         }
+        sum.inside_out = sum.inside_out || (step.keep && w.elements.any_inside_out(chunk.count));
+      }
+      // A material that goes on to the forces by itself is asked for stress where that is kept alone.
+      if (sweeping == nullptr || (step.keep && materials.keeps_stress())) {
         materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
       }
       if (sweeping != nullptr) {

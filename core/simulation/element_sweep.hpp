@@ -12,7 +12,7 @@ namespace talus {
 /// What a pass over subdomains does besides forces.
 struct SweepStep {
   double dt = 0;      ///< s, t_n − t_{n−1}
-  bool keep = false;  ///< deformation, stress and velocity at t_n, for output
+  bool keep = false;  ///< stress and velocity at t_n, for output
 
   /// The velocity update of free patches, where nothing has to be known of the whole body first.
   bool update = false;
@@ -25,6 +25,7 @@ struct SweepStep {
 /// Energies of the elements, J/m, and sums over the own patches where they were updated.
 struct SweepSums {
   double stored = 0, dissipated = 0;
+  bool inside_out = false;  ///< an element is, seen where SweepStep::keep
   kernels::VelocitySums own{};
 };
 

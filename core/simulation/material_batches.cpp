@@ -41,6 +41,13 @@ std::array<double, 3> cauchy_of(const ElementBuffer& buffer, std::uint32_t i) {
 
 }  // namespace
 
+bool ElementBuffer::any_inside_out(std::uint32_t count) const {
+  const auto& [xx, xy, yx, yy] = deformation;
+  bool any = false;
+  for (std::uint32_t i = 0; i < count; ++i) any |= !(xx[i] * yy[i] - xy[i] * yx[i] > 0);
+  return any;
+}
+
 MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
   bool remembers = false;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
@@ -59,7 +66,7 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     for (int k = 0; k < 4 && needs_previous; ++k)
       batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
   }
-  if (remembers || !model.covered_bodies.empty()) cauchy_.resize(model.element_body.size());
+  if (remembers) cauchy_.resize(model.element_body.size());
 }
 
 std::uint32_t MaterialBatches::batch_of(std::uint32_t element) const {
@@ -96,15 +103,22 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
   for (int k = 0; k < 4 && batch.needs_previous; ++k)
     std::copy(buffer.deformation[k], buffer.deformation[k] + count, batch.deformation[k].data() + first);
-  for (std::uint32_t i = 0; i < count && keep && !cauchy_.empty(); ++i)
+  for (std::uint32_t i = 0; i < count && keep && keeps_stress(); ++i)
     cauchy_[element + i] = cauchy_of(buffer, i);
 }
 
-std::array<double, 3> MaterialBatches::cauchy(std::uint32_t element, const Matrix2& gradient) const {
-  if (!cauchy_.empty()) return cauchy_[element];
+void MaterialBatches::cauchy(std::uint32_t element, std::span<const Matrix2> gradients,
+                             std::array<double, 3>* stress) const {
+  if (keeps_stress()) {
+    std::copy_n(cauchy_.data() + element, gradients.size(), stress);
+    return;
+  }
   ElementBuffer buffer;
-  buffer.deformation[0][0] = 1 + gradient.xx, buffer.deformation[1][0] = gradient.xy;
-  buffer.deformation[2][0] = gradient.yx, buffer.deformation[3][0] = 1 + gradient.yy;
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    const Matrix2& h = gradients[i];
+    buffer.deformation[0][i] = 1 + h.xx, buffer.deformation[1][i] = h.xy;
+    buffer.deformation[2][i] = h.yx, buffer.deformation[3][i] = 1 + h.yy;
+  }
   MaterialBatch input{};
   MaterialResponse output{};
   for (int k = 0; k < 4; ++k) {
@@ -112,11 +126,11 @@ std::array<double, 3> MaterialBatches::cauchy(std::uint32_t element, const Matri
     output.stress[k] = buffer.stress[k];
   }
   input.dt = 1;  // what it does to a material without memory
-  input.count = 1;
+  input.count = static_cast<std::uint32_t>(gradients.size());
   output.energy = buffer.energy;
   output.dissipated = buffer.dissipated;
   batches_[batch_of(element)].material->evaluate(input, output);
-  return cauchy_of(buffer, 0);
+  for (std::uint32_t i = 0; i < gradients.size(); ++i) stress[i] = cauchy_of(buffer, i);
 }
 
 void MaterialBatches::exchange(Archive& archive) {

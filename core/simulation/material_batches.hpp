@@ -8,6 +8,7 @@
 #include <talus/material.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace talus {
@@ -19,11 +20,14 @@ struct ElementBuffer {
   double deformation[4][most], stress[4][most];  ///< xx, xy, yx, yy; F, and P in Pa
   double energy[most], dissipated[most];         ///< J/m³
   std::vector<double> state;                     ///< of t_n, [element * doubles_per_element]
+
+  /// Whether det F is above 0 in the first `count` elements is what this denies.
+  bool any_inside_out(std::uint32_t count) const;
 };
 
 /// The materials of the elements that deform, and what is kept of each element from step to step: the states
 /// of its material, the deformation where its material asks for it, and stress for output where it does not
-/// follow from how a block is deformed.
+/// follow from how an element is deformed.
 class MaterialBatches {
  public:
   MaterialBatches(const Scene& scene, const Model& model);
@@ -43,10 +47,12 @@ class MaterialBatches {
   void evaluate(std::uint32_t batch, std::uint32_t element, std::uint32_t count, double dt, bool keep,
                 ElementBuffer& buffer);
 
-  /// Cauchy stress xx, yy, xy, Pa, when the element was last kept, of a body of many elements.
-  const std::array<double, 3>& cauchy(std::size_t element) const { return cauchy_[element]; }
-  /// The same of an affine block of a displacement gradient.
-  std::array<double, 3> cauchy(std::uint32_t element, const Matrix2& gradient) const;
+  /// Whether evaluate() has to be called for stress to be known: of materials without memory it follows from
+  /// displacement gradients.
+  bool keeps_stress() const { return !cauchy_.empty(); }
+  /// Cauchy stress xx, yy, xy, Pa, of elements side by side in a batch, as many as ElementBuffer::most, from
+  /// their displacement gradients, or as it was when they were last kept.
+  void cauchy(std::uint32_t element, std::span<const Matrix2> gradients, std::array<double, 3>* stress) const;
 
   void exchange(Archive& archive);
 
@@ -64,7 +70,7 @@ class MaterialBatches {
   };
 
   std::vector<Batch> batches_;
-  /// [element] as cauchy() says it; empty where there are only blocks of materials without memory.
+  /// [element] as cauchy() says it; empty where no material has a memory.
   std::vector<std::array<double, 3>> cauchy_;
 };
 

@@ -97,11 +97,12 @@ void Sleep::watch(double time, Vec2 gravity, Workers& workers, Parts parts) {
   }
   const double limit = settings_.speed * settings_.speed, pause = look_share * settings_.after;
   const auto fast = [&](const Body& body) {
-    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
+    bool any = false;
+    parts.model.visit_boundary(body, [&](std::uint32_t c) {
       const BoundaryCorner& corner = parts.motion.corners[c];
-      if (!(corner.vx * corner.vx + corner.vy * corner.vy < limit)) return true;
-    }
-    return false;
+      any = any || !(corner.vx * corner.vx + corner.vy * corner.vy < limit);
+    });
+    return any;
   };
   workers.over(quiet_since_.size(), watch_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {

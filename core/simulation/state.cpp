@@ -136,6 +136,7 @@ void Simulation::State::forces() {
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
                                                  patch_velocity_at_step);  // Eqs. 18, 23–24
+  check_shapes();
   if (sleep) strain_energy.stored += sleep->strain_energy();
   profile.enter(Phase::velocities);
   if (may_sleep_now) sleep->choose(time, sleeping_parts());
@@ -177,10 +178,7 @@ double Simulation::State::evaluate_contacts() {
     sleep->wake(contacts.touched(), time, sleeping_parts());
     contact_totals.stored += sleep->contact_energy();
   }
-  if (plan.done == 0) {  // not where a checkpoint happens to be due
-    check_shapes();
-    if (!settling) warn_of_thin_ground();
-  }
+  if (plan.done == 0 && !settling) warn_of_thin_ground();  // not where a checkpoint happens to be due
   check_law();
   const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
   interfaces_changed = false;

@@ -115,6 +115,7 @@ struct Simulation::State {
   void remember_deepest();
   void check_numbers() const;
   void check_shapes() const;
+  void refuse_inside_out() const;
   void check_law() const;
   void check_materials() const;
   void check_step() const;

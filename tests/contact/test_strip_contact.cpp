@@ -147,6 +147,46 @@ TEST_CASE("an energy that passes over joints of either boundary has no jump", "[
     CHECK(pressed.at(-0.01, -0.2 + 4e-4 * i + 1e-9).stored == Approx(due).epsilon(1e-9));
 }
 
+TEST_CASE("between searches strips are shaped where a pair lists them, and nowhere else",
+          "[contact][strips]") {
+  WorkingScene text;
+  text.bodies = box("post", -0.5, -1, 0.5, 0, R"("fixed": true, "cover": {"model": "block"})") + ", " +
+                box("beam", -10, 0, 10, 1, R"("cover": {"model": "hexagonal", "size": 0.3})") + ", " +
+                box("ell", -1, 1.001, 1, 2, R"("cover": {"model": "block"})");
+  const Scene scene = text.read();
+  const Model model = build_model(scene);
+  MotionState motion(model);
+  ContactStage contacts(scene, model, alone(), true);
+  contacts.find_pairs(model, motion, 0, {});
+  const std::vector<BoundaryCorner> before = motion.corners;
+  for (Vec2& d : motion.patch_displacement) d = {1e-4, -2e-4};
+  for (Vec2& v : motion.patch_velocity) v = {0.1, -0.2};
+  MotionState all = motion;
+  all.move_boundary(model);
+  for (const std::uint32_t body : model.moving_bodies) motion.move_corners(model, body);
+  REQUIRE_FALSE(contacts.find_pairs(model, motion, 1e-3, {0.3, 0.3, 0.3}));
+
+  std::vector<char> listed(model.piece_body.size(), 0);
+  const PiecePairs piece_pairs = contacts.piece_pairs();
+  for (const BodyPair& pair : contacts.pairs()) {
+    for (const PiecePair pieces : piece_pairs.of(pair)) listed[pieces.a] = listed[pieces.b] = 1;
+  }
+  std::size_t left = 0, shaped = 0;
+  for (std::uint32_t piece = 0; piece < model.piece_body.size(); ++piece) {
+    if (model.is_strip[piece] == 0) continue;
+    for (std::uint32_t c = model.piece_start[piece] + 2; c < model.piece_start[piece + 1]; ++c) {
+      const BoundaryCorner& due = listed[piece] != 0 ? all.corners[c] : before[c];
+      CHECK(motion.corners[c].x == due.x);
+      CHECK(motion.corners[c].vy == due.vy);
+      CHECK(motion.corners[c].tangent_y == due.tangent_y);
+      CHECK(motion.corners[c].length == due.length);
+    }
+    ++(listed[piece] != 0 ? shaped : left);
+  }
+  CHECK(shaped > 5);
+  CHECK(left > 5 * shaped);
+}
+
 TEST_CASE("the halves of a body that was cut anywhere meet as two bodies do", "[contact][strips]") {
   // Two lines through a unit square, one of them oblique, one from corner to corner.
   for (const char* line :

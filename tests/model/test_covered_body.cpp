@@ -147,6 +147,40 @@ TEST_CASE("a body of many elements turns and stretches with its patches", "[mode
   }
 }
 
+TEST_CASE("the mean gradient of a body of many elements follows from the patches around it",
+          "[model][cover]") {
+  const std::string with_hole = R"(, "holes": [[[0.3, 0.3], [0.3, 0.7], [0.7, 0.7], [0.7, 0.3]]])";
+  for (const char* cover : {R"("size": 0.11, "angle": 3)", R"("size": 0.13, "slivers": "keep")"}) {
+    const Model model = build_model(covered(ell, cover, with_hole).read());
+    const CoverRanges& ranges = model.ranges(model.bodies[0]);
+    MotionState motion(model);
+    for (std::size_t p = 0; p < model.patch_star.size(); ++p) {
+      const double k = static_cast<double>(p);
+      motion.patch_displacement[p] = {3 + std::sin(7 * k), std::cos(5 * k * k)};
+      motion.patch_velocity[p] = {std::sin(11 * k), -20 + std::cos(3 * k * k)};
+    }
+    motion.average(model, 0);
+    Matrix2 h, rate;
+    const auto add = [](Matrix2& sum, double share, const Matrix2& of) {
+      sum = {sum.xx + share * of.xx, sum.xy + share * of.xy, sum.yx + share * of.yx, sum.yy + share * of.yy};
+    };
+    for (std::size_t e = 0; e < model.elements.size(); ++e) {
+      const double share = model.element_area[e] / model.bodies[0].moments.area;
+      add(h, share, gradient(model.elements[e], motion.patch_displacement));
+      add(rate, share, gradient(model.elements[e], motion.patch_velocity));
+    }
+    const auto same = [](const Matrix2& p, const Matrix2& q) {
+      CHECK(p.xx == Approx(q.xx).margin(1e-12));
+      CHECK(p.xy == Approx(q.xy).margin(1e-12));
+      CHECK(p.yx == Approx(q.yx).margin(1e-12));
+      CHECK(p.yy == Approx(q.yy).margin(1e-12));
+    };
+    same(motion.bodies[0].h, h);
+    same(motion.bodies[0].rate, rate);
+    CHECK(3 * (ranges.outer_end - ranges.outer_begin) < 2 * (ranges.patch_end - ranges.patch_begin));
+  }
+}
+
 TEST_CASE("a cover that a body cannot have is refused with the names of both", "[model][cover]") {
   WorkingScene text;
   text.bodies = box("cracked", 0, 0, 1, 1, R"("discontinuities": [{"points": [[-1, 0.5], [2, 0.5]]}])");
