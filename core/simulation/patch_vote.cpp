@@ -21,24 +21,33 @@ struct Tangent {
   double viscous_time = 0;
 };
 
-/// Adds factor · Bᵀ D B v A of the elements of a body.
+/// Adds factor · Bᵀ D B v A of the elements of a body. Some are strained before any of them pulls: what is
+/// read of a patch would wait for what has just been written of it, which lies as many whole pages away.
 void add_elastic(const Model& model, const Body& body, const Tangent& tangent, double factor,
                  const Field& from, Field& to) {
-  for (std::uint32_t i = body.element_begin; i < body.element_end; ++i) {
-    const std::uint32_t number = model.body_element[i];
-    const Element& element = model.elements[number];
-    const Matrix2 h = gradient(element, from);
-    const std::array<double, 3> strain{h.xx, h.yy, h.xy + h.yx};
-    std::array<double, 3> stress{};
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 3; ++c)
-        stress[r] += factor * model.element_area[number] * tangent.d[3 * r + c] * strain[c];
+  constexpr std::uint32_t at_once = 64;
+  std::array<double, 9> d = tangent.d;
+  for (double& entry : d) entry *= factor;
+  std::array<std::array<double, 3>, at_once> stress;  // times area
+  const std::uint32_t first = model.first_element(body), end = first + body.element_end - body.element_begin;
+  for (std::uint32_t begin = first; begin < end; begin += at_once) {
+    const std::uint32_t count = std::min(at_once, end - begin);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Matrix2 h = gradient(model.elements[begin + i], from);
+      const double area = model.element_area[begin + i];
+      const std::array<double, 3> strain{area * h.xx, area * h.yy, area * (h.xy + h.yx)};
+      for (std::size_t r = 0; r < 3; ++r)
+        stress[i][r] = d[3 * r] * strain[0] + d[3 * r + 1] * strain[1] + d[3 * r + 2] * strain[2];
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 g = element.gradient[k];
-      Vec2& force = to[element.patch[k]];
-      force.x += stress[0] * g.x + stress[2] * g.y;
-      force.y += stress[2] * g.x + stress[1] * g.y;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Element& element = model.elements[begin + i];
+      __builtin_prefetch(&model.elements[std::min(begin + i + at_once, end - 1)]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2 g = element.gradient[k];
+        Vec2& force = to[element.patch[k]];
+        force.x += stress[i][0] * g.x + stress[i][2] * g.y;
+        force.y += stress[i][2] * g.x + stress[i][1] * g.y;
+      }
     }
   }
 }
