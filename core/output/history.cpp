@@ -25,10 +25,9 @@ std::vector<double> sample_monitors(const Simulation& simulation) {
   const bool touched = std::any_of(scene.monitors.begin(), scene.monitors.end(), sees_contacts);
   const std::vector<Contact> contacts = touched ? simulation.contacts() : std::vector<Contact>{};
   std::vector<double> values;
-  for (const Monitor& monitor : scene.monitors) {
-    Sampled sampled{monitor.point ? simulation.point_motion(monitor.body, *monitor.point)
-                                  : simulation.body_motion(monitor.body),
-                    scene.origin};
+  for (std::size_t number = 0; number < scene.monitors.size(); ++number) {
+    const Monitor& monitor = scene.monitors[number];
+    Sampled sampled{simulation.monitor_motion(number), scene.origin};
     if (sees_contacts(monitor))
       sampled.contact = contact_sum(contacts, monitor.body, sampled.motion.position);
     for (const std::string& name : monitor.quantities) values.push_back(find_quantity(name)->value(sampled));

@@ -29,18 +29,28 @@ constexpr std::array table{
     Quantity{"y", "m", [](const Sampled& s) { return s.origin.y + s.motion.position.y; },
              "position, with the scene's origin"},
     Quantity{"stress_xx", "Pa", [](const Sampled& s) { return s.motion.stress_xx; },
-             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies",
+             Quantity::Of::stress},
     Quantity{"stress_yy", "Pa", [](const Sampled& s) { return s.motion.stress_yy; },
-             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies",
+             Quantity::Of::stress},
     Quantity{"stress_xy", "Pa", [](const Sampled& s) { return s.motion.stress_xy; },
-             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies"},
+             "Cauchy stress: mean over the body, or of the element at `point`; 0 for rigid bodies",
+             Quantity::Of::stress},
     Quantity{"contact_fx", "N/m", [](const Sampled& s) { return s.contact.force.x; },
-             "force along x of all contacts on the body, e.g. the thrust on a fixed wall", true},
+             "force along x of all contacts on the body, e.g. the thrust on a fixed wall",
+             Quantity::Of::contacts},
     Quantity{"contact_fy", "N/m", [](const Sampled& s) { return s.contact.force.y; },
-             "force along y of all contacts on the body", true},
+             "force along y of all contacts on the body", Quantity::Of::contacts},
     Quantity{"contact_moment", "N", [](const Sampled& s) { return s.contact.moment; },
-             "their moment about `point`, or about the centre of mass, counter-clockwise", true},
+             "their moment about `point`, or about the centre of mass, counter-clockwise",
+             Quantity::Of::contacts},
 };
+
+bool sees(const Monitor& monitor, Quantity::Of what) {
+  return std::any_of(monitor.quantities.begin(), monitor.quantities.end(),
+                     [what](const std::string& name) { return find_quantity(name)->of == what; });
+}
 
 }  // namespace
 
@@ -69,8 +79,11 @@ const Quantity* find_quantity(std::string_view name) {
 }
 
 bool sees_contacts(const Monitor& monitor) {
-  return std::any_of(monitor.quantities.begin(), monitor.quantities.end(),
-                     [](const std::string& name) { return find_quantity(name)->of_contacts; });
+  return sees(monitor, Quantity::Of::contacts);
+}
+
+bool sees_stress(const Monitor& monitor) {
+  return sees(monitor, Quantity::Of::stress);
 }
 
 }  // namespace talus

@@ -30,7 +30,7 @@ struct Quantity {
   const char* unit;  ///< as it is written
   double (*value)(const Sampled& sampled);
   const char* sentence;
-  bool of_contacts = false;
+  enum class Of { motion, stress, contacts } of = Of::motion;
 };
 
 std::span<const Quantity> quantities();
@@ -38,7 +38,8 @@ std::span<const Quantity> quantities();
 /// nullptr if there is none of that name.
 const Quantity* find_quantity(std::string_view name);
 
-/// Whether it records a quantity of contacts.
+/// Whether it records a quantity of contacts, of stress.
 bool sees_contacts(const Monitor& monitor);
+bool sees_stress(const Monitor& monitor);
 
 }  // namespace talus

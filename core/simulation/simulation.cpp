@@ -3,6 +3,7 @@
 #include "model/distinct_points.hpp"
 #include "model/fragments.hpp"
 #include "output/hash.hpp"
+#include "output/quantity.hpp"
 #include "parallel/subnormals.hpp"
 #include "simulation/state.hpp"
 
@@ -230,47 +231,37 @@ std::string Simulation::state_hash() const {
   return hash_of_bytes({reinterpret_cast<const char*>(state.data()), state.size() * sizeof(double)});
 }
 
+namespace {
+
+Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
+  motion.stress_xx = stress[0];
+  motion.stress_yy = stress[1];
+  motion.stress_xy = stress[2];
+  return motion;
+}
+
+}  // namespace
+
 Motion Simulation::body_motion(std::size_t body) const {
   const State& s = *state_;
   const std::uint32_t index = s.numbering.inside(body);
-  const Body& b = s.model.bodies[index];
-  if (!s.model.covered(index)) return point_motion(body, b.centre);
-  Vec2 now, start, speed;
-  const CoverRanges& ranges = s.model.ranges(b);
-  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-    const double share = s.model.patch_mass[p] / b.mass;
-    const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
-    add(now, s.motion.patch_displacement[p]);
-    if (s.scene.settle) add(start, s.start_displacement[p]);
-    add(speed, s.patch_velocity_at_step[p]);
-  }
-  const std::array<double, 3> stress = s.deformation.cauchy(s.model, s.motion, index);
-  return {{b.centre.x + now.x, b.centre.y + now.y},
-          {now.x - start.x, now.y - start.y},
-          speed,
-          s.rotation_since_start(index),
-          stress[0],
-          stress[1],
-          stress[2]};
+  return with_stress(s.motion_of(index), s.deformation.cauchy(s.model, s.motion, index));
 }
 
 Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
   const State& s = *state_;
-  const std::uint32_t index = s.numbering.inside(body);
-  const Vec2 centre = s.model.bodies[index].centre;
-  const Vec2 reference{point_at_start.x - centre.x, point_at_start.y - centre.y};
-  std::array<double, 3> stress{};
-  MaterialPoint point{index, reference, {}};
-  if (s.model.covered(index)) {
-    const std::uint32_t element = s.model.element_at(index, reference);
-    point.carrier = s.model.carrier(s.model.elements[element], reference);
-    stress = s.deformation.cauchy_of_element(s.model, s.motion, element);
-  } else {
-    stress = s.deformation.cauchy(s.model, s.motion, index);
-  }
-  const PartPoint at = s.point(point, point_at_start);
-  return {at.position, at.displacement, at.velocity, s.rotation_since_start(index),
-          stress[0],   stress[1],       stress[2]};
+  const std::uint32_t index = s.numbering.inside(body), element = s.element_at(index, point_at_start);
+  return with_stress(s.motion_of(index, element, point_at_start), s.stress_of(index, element));
+}
+
+Motion Simulation::monitor_motion(std::size_t number) const {
+  const State& s = *state_;
+  const Monitor& monitor = s.scene.monitors[number];
+  if (!monitor.point && sees_stress(monitor)) return body_motion(s.numbering.outside(monitor.body));
+  if (!monitor.point) return s.motion_of(monitor.body);
+  const std::uint32_t element = s.monitored_elements[number];
+  const Motion motion = s.motion_of(monitor.body, element, *monitor.point);
+  return sees_stress(monitor) ? with_stress(motion, s.stress_of(monitor.body, element)) : motion;
 }
 
 std::vector<BodyPart> Simulation::parts(std::size_t body) const {

@@ -65,8 +65,9 @@ inline constexpr LedgerEntry ledger_entries[] = {
 struct Motion {
   Vec2 position;  ///< m, without the scene's origin
   Vec2 displacement, velocity;
-  double rotation;                         ///< rad since t = 0, counter-clockwise
-  double stress_xx, stress_yy, stress_xy;  ///< Pa, Cauchy, area mean of the body; 0 for rigid bodies
+  double rotation;  ///< rad since t = 0, counter-clockwise
+  /// Pa, Cauchy, area mean of the body; 0 for rigid bodies.
+  double stress_xx = 0, stress_yy = 0, stress_xy = 0;
 };
 
 /// A point of a body at t_n: m without the scene's origin, m since t = 0, m/s.
@@ -174,6 +175,8 @@ class Simulation {
   double body_width(std::size_t body) const;  ///< m, see Body::width
   Motion body_motion(std::size_t body) const;
   Motion point_motion(std::size_t body, Vec2 point_at_start) const;
+  /// Of a monitor of the scene; stress is 0 where it does not record that.
+  Motion monitor_motion(std::size_t monitor) const;
   std::vector<BodyPart> parts(std::size_t body) const;
   std::vector<std::uint32_t> fragments(std::size_t body) const;  ///< [part] see fragments_of()
   /// [point] of parts(), loop after loop, see talus::distinct_points(); empty where the body moves as a

@@ -57,6 +57,7 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
       start(scene.settle ? model.bodies.size() : 0),
       start_displacement(scene.settle ? model.patch_star.size() : 0),
       rotation(model.bodies.size(), 0.0),
+      monitored_elements(elements_of_monitors()),
       profile(settings.profile) {
   if (scene.sleep) {
     sleep.emplace(*scene.sleep, model, stage);
@@ -338,28 +339,6 @@ void Simulation::State::bring_rotation_up_to_date() {
     const Vec2 now = turn_of(motion.bodies[i].h);
     rotation[i] += std::remainder(std::atan2(now.y, now.x) - rotation[i], 2 * std::numbers::pi);
   }
-}
-
-double Simulation::State::rotation_since_start(std::uint32_t body) const {
-  return rotation[body] - (rotation_at_start.empty() ? 0 : rotation_at_start[body]);
-}
-
-PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const {
-  const bool whole = at.carrier.patch[0] == no_patch;
-  const Vec2 now = motion.displacement(at),
-             before =
-                 whole ? displacement_at_start(at.body, at.reference) : displacement_at_start(at.carrier),
-             speed = !whole            ? carried(at.carrier, patch_velocity_at_step)
-                     : velocities_left ? velocity(motion.velocity_at_step(at.body), at.reference)
-                                       : velocity(motion.bodies[at.body], at.reference);
-  return {{as_drawn.x + now.x, as_drawn.y + now.y}, {now.x - before.x, now.y - before.y}, speed};
-}
-
-Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
-  return start.empty() ? Vec2{} : displacement(start[body], reference);
-}
-Vec2 Simulation::State::displacement_at_start(const Carrier& carrier) const {
-  return start.empty() ? Vec2{} : carried(carrier, start_displacement);
 }
 
 void Simulation::State::set_initial_velocities() {

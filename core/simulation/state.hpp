@@ -76,7 +76,8 @@ struct Simulation::State {
   std::vector<double> rotation;     ///< [body] rad from the shape it is drawn in, followed through full turns
   std::vector<double>
       rotation_at_start;  ///< [body] rad, at t = 0; empty where bodies start as they are drawn
-  double turned = 0;      ///< rad, bound of what any body has turned since then
+  std::vector<std::uint32_t> monitored_elements;  ///< [monitor] that its point is in, see element_at()
+  double turned = 0;                              ///< rad, bound of what any body has turned since then
 
   MotionState::Speeds speeds;
   ContactTotals contact_totals;
@@ -126,6 +127,12 @@ struct Simulation::State {
   void bring_rotation_up_to_date();
   double rotation_since_start(std::uint32_t body) const;  ///< rad
   PartPoint point(const MaterialPoint& at, Vec2 as_drawn) const;
+  /// Without stress: of the centre of mass, or of a point and the element it is in.
+  Motion motion_of(std::uint32_t body) const;
+  Motion motion_of(std::uint32_t body, std::uint32_t element, Vec2 as_drawn) const;
+  std::uint32_t element_at(std::uint32_t body, Vec2 as_drawn) const;  ///< of a body of many elements; else 0
+  std::array<double, 3> stress_of(std::uint32_t body, std::uint32_t element) const;
+  std::vector<std::uint32_t> elements_of_monitors() const;
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();

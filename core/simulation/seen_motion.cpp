@@ -1,0 +1,71 @@
+#include "simulation/state.hpp"
+
+namespace talus {
+
+double Simulation::State::rotation_since_start(std::uint32_t body) const {
+  return rotation[body] - (rotation_at_start.empty() ? 0 : rotation_at_start[body]);
+}
+
+PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const {
+  const bool whole = at.carrier.patch[0] == no_patch;
+  const Vec2 now = motion.displacement(at),
+             before =
+                 whole ? displacement_at_start(at.body, at.reference) : displacement_at_start(at.carrier),
+             speed = !whole            ? carried(at.carrier, patch_velocity_at_step)
+                     : velocities_left ? velocity(motion.velocity_at_step(at.body), at.reference)
+                                       : velocity(motion.bodies[at.body], at.reference);
+  return {{as_drawn.x + now.x, as_drawn.y + now.y}, {now.x - before.x, now.y - before.y}, speed};
+}
+
+Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
+  return start.empty() ? Vec2{} : displacement(start[body], reference);
+}
+Vec2 Simulation::State::displacement_at_start(const Carrier& carrier) const {
+  return start.empty() ? Vec2{} : carried(carrier, start_displacement);
+}
+
+Motion Simulation::State::motion_of(std::uint32_t body) const {
+  const Body& b = model.bodies[body];
+  if (!model.covered(body)) return motion_of(body, 0, b.centre);
+  Vec2 now, before, speed;
+  const CoverRanges& ranges = model.ranges(b);
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
+    const double share = model.patch_mass[p] / b.mass;
+    const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
+    add(now, motion.patch_displacement[p]);
+    if (scene.settle) add(before, start_displacement[p]);
+    add(speed, patch_velocity_at_step[p]);
+  }
+  return {{b.centre.x + now.x, b.centre.y + now.y},
+          {now.x - before.x, now.y - before.y},
+          speed,
+          rotation_since_start(body)};
+}
+
+Motion Simulation::State::motion_of(std::uint32_t body, std::uint32_t element, Vec2 as_drawn) const {
+  const Vec2 centre = model.bodies[body].centre;
+  MaterialPoint at{body, {as_drawn.x - centre.x, as_drawn.y - centre.y}, {}};
+  if (model.covered(body)) at.carrier = model.carrier(model.elements[element], at.reference);
+  const PartPoint seen = point(at, as_drawn);
+  return {seen.position, seen.displacement, seen.velocity, rotation_since_start(body)};
+}
+
+std::uint32_t Simulation::State::element_at(std::uint32_t body, Vec2 as_drawn) const {
+  const Vec2 centre = model.bodies[body].centre;
+  return model.covered(body) ? model.element_at(body, {as_drawn.x - centre.x, as_drawn.y - centre.y}) : 0;
+}
+
+std::array<double, 3> Simulation::State::stress_of(std::uint32_t body, std::uint32_t element) const {
+  return model.covered(body) ? deformation.cauchy_of_element(model, motion, element)
+                             : deformation.cauchy(model, motion, body);
+}
+
+/// Looked for once: it takes a look at all elements of a body.
+std::vector<std::uint32_t> Simulation::State::elements_of_monitors() const {
+  std::vector<std::uint32_t> elements;
+  for (const Monitor& monitor : scene.monitors)
+    elements.push_back(monitor.point ? element_at(monitor.body, *monitor.point) : 0);
+  return elements;
+}
+
+}  // namespace talus
