@@ -14,7 +14,8 @@ constexpr double sight = 0.02;
 
 constexpr std::size_t pieces_at_once = 64;
 
-/// Whether somebody has to (see MotionState::shape_piece()): bodies of one piece are shaped as they move.
+/// Whether MotionState::shape_piece() has to be called for its pieces: a body of one piece is shaped as it
+/// moves.
 bool shaped_by_piece(const Model& model, std::uint32_t body) {
   return model.moves(body) && !model.one_piece(model.bodies[body]);
 }

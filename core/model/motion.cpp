@@ -97,14 +97,12 @@ void MotionState::average(const Model& model, std::uint32_t index) {
   const CoverRanges& ranges = model.ranges(body);
   BodyMotion mean;
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-    const double mass = model.patch_mass[p];
-    mean.u.x += mass * patch_displacement[p].x;
-    mean.u.y += mass * patch_displacement[p].y;
-    mean.velocity.x += mass * patch_velocity[p].x;
-    mean.velocity.y += mass * patch_velocity[p].y;
+    const double share = model.patch_mass[p] / body.mass;
+    mean.u.x += share * patch_displacement[p].x;
+    mean.u.y += share * patch_displacement[p].y;
+    mean.velocity.x += share * patch_velocity[p].x;
+    mean.velocity.y += share * patch_velocity[p].y;
   }
-  mean.u = {mean.u.x / body.mass, mean.u.y / body.mass};
-  mean.velocity = {mean.velocity.x / body.mass, mean.velocity.y / body.mass};
   const auto add = [](Matrix2& sum, Vec2 value, Vec2 g) {
     sum.xx += value.x * g.x;
     sum.xy += value.x * g.y;

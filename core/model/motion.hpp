@@ -52,7 +52,9 @@ struct MotionState {
   std::vector<Vec2> patch_velocity;      ///< [patch] m/s
   std::vector<Vec2> patch_force;         ///< [patch] N/m
   double own_behind = 0;  ///< s of motion that own patches (see Partition) have yet to catch up with
-  std::vector<BoundaryCorner> corners;  ///< in the frame of the body
+  /// In the frame of the body. Of a body of several pieces, tangents, lengths and the inner corners of strips
+  /// are as of the last shape_piece(): a piece that no pair lists is shaped for searches alone.
+  std::vector<BoundaryCorner> corners;
 
   /// Corners follow their moving bodies (Eq. 11).
   void move_boundary(const Model& model);

@@ -34,13 +34,13 @@ void Simulation::State::check_numbers() const {
                   time, plan.dt, critical.dt));
 }
 
-/// At output times, and not where a checkpoint happens to be due. What is turned inside out passes through
-/// others unseen.
+/// As a plan begins, so at output times, and not where a checkpoint happens to be due. What is turned inside
+/// out passes through others unseen.
 void Simulation::State::check_shapes() const {
   if (plan.done == 0 && strain_energy.inside_out) refuse_inside_out();
 }
 
-/// If anything is.
+/// If anything is. Own patches may have yet to catch up with the move of the step.
 void Simulation::State::refuse_inside_out() const {
   const auto refuse = [&](std::uint32_t body, const char* what) {
     throw NumericalTrouble(
@@ -53,9 +53,17 @@ void Simulation::State::refuse_inside_out() const {
   for (const std::uint32_t body : model.moving_bodies) {
     if (!model.covered(body) && inverted(motion.bodies[body].h)) refuse(body, "its area became negative");
   }
+  std::vector<Vec2> displacement = motion.patch_displacement;
+  for (const std::uint32_t body : model.covered_bodies) {
+    const CoverRanges& ranges = model.ranges(model.bodies[body]);
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.own_end; ++p) {
+      displacement[p].x += motion.own_behind * motion.patch_velocity[p].x;
+      displacement[p].y += motion.own_behind * motion.patch_velocity[p].y;
+    }
+  }
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const std::uint32_t body = model.element_body[e];
-    if (model.covered(body) && inverted(gradient(model.elements[e], motion.patch_displacement)))
+    if (model.covered(body) && inverted(gradient(model.elements[e], displacement)))
       refuse(body, "the area of an element became negative");
   }
 }

@@ -26,7 +26,8 @@ class Deformation {
   };
   /// f_int (Eq. 18): adds −A P ∇w to the forces of the patches, −A P to the moments of affine blocks. Own
   /// patches of bodies of many elements (see Partition) catch up with MotionState::own_behind; their forces
-  /// are set, not added to, for nothing else acts on them. `keep`: stresses are wanted for output.
+  /// are set, not added to, for nothing else acts on them. `keep`: the step is looked at, so stresses of
+  /// materials with a memory are kept, and whether anything is inside out is found.
   Energy apply(const Model& model, MotionState& motion, double dt, bool keep = true);
 
   /// The same, and patches of bodies without supports go on to v₊ at once, so all other forces must be there;

@@ -12,7 +12,7 @@ namespace talus {
 /// What a pass over subdomains does besides forces.
 struct SweepStep {
   double dt = 0;      ///< s, t_n − t_{n−1}
-  bool keep = false;  ///< stress and velocity at t_n, for output
+  bool keep = false;  ///< velocity at t_n, for output, stress of materials with a memory, and `inside_out`
 
   /// The velocity update of free patches, where nothing has to be known of the whole body first.
   bool update = false;

@@ -62,7 +62,8 @@ void Simulation::State::exchange_books(Archive& archive) {
   archive.of_known_size(patch_velocity_at_step);
   archive(ledger);
   archive(contact_totals);
-  archive(strain_energy);
+  archive(strain_energy.stored);
+  archive(strain_energy.dissipated);
   archive(deepest_pair.first);
   archive(deepest_pair.second);
   archive(summary.steps);

@@ -28,6 +28,14 @@ void refuse_unsound(const Material& material, const RegisteredComponent& compone
     refuse("its viscous time", viscous_time, "a finite number from 0 on");
 }
 
+/// What a material must write, in audit builds.
+void poison([[maybe_unused]] ElementBuffer& buffer, [[maybe_unused]] std::uint32_t count) {
+#ifdef TALUS_AUDIT
+  for (auto& component : buffer.stress)
+    std::fill(component, component + count, std::numeric_limits<double>::quiet_NaN());
+#endif
+}
+
 /// σ = P Fᵀ / det F.
 std::array<double, 3> cauchy_of(const ElementBuffer& buffer, std::uint32_t i) {
   const auto& [xx, xy, yx, yy] = buffer.deformation;
@@ -81,10 +89,7 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   const std::size_t doubles = batch.material->doubles_per_element(), first = element - batch.begin;
   double* state = batch.state.data() + doubles * first;
   if (buffer.state.size() < doubles * ElementBuffer::most) buffer.state.resize(doubles * ElementBuffer::most);
-#ifdef TALUS_AUDIT
-  for (auto& component : buffer.stress)
-    std::fill(component, component + count, std::numeric_limits<double>::quiet_NaN());
-#endif
+  poison(buffer, count);
   MaterialBatch input{};
   MaterialResponse output{};
   for (int k = 0; k < 4; ++k) {
@@ -114,6 +119,7 @@ void MaterialBatches::cauchy(std::uint32_t element, std::span<const Matrix2> gra
     return;
   }
   ElementBuffer buffer;
+  poison(buffer, static_cast<std::uint32_t>(gradients.size()));
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     const Matrix2& h = gradients[i];
     buffer.deformation[0][i] = 1 + h.xx, buffer.deformation[1][i] = h.xy;

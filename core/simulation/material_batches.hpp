@@ -21,7 +21,7 @@ struct ElementBuffer {
   double energy[most], dissipated[most];         ///< J/m³
   std::vector<double> state;                     ///< of t_n, [element * doubles_per_element]
 
-  /// Whether det F is above 0 in the first `count` elements is what this denies.
+  /// Whether det F is not above 0, or no number, in any of the first `count` elements.
   bool any_inside_out(std::uint32_t count) const;
 };
 

@@ -130,7 +130,8 @@ struct Simulation::State {
   /// Without stress: of the centre of mass, or of a point and the element it is in.
   Motion motion_of(std::uint32_t body) const;
   Motion motion_of(std::uint32_t body, std::uint32_t element, Vec2 as_drawn) const;
-  std::uint32_t element_at(std::uint32_t body, Vec2 as_drawn) const;  ///< of a body of many elements; else 0
+  /// Of a body of many elements; of others it stands for nothing.
+  std::uint32_t element_at(std::uint32_t body, Vec2 as_drawn) const;
   std::array<double, 3> stress_of(std::uint32_t body, std::uint32_t element) const;
   std::vector<std::uint32_t> elements_of_monitors() const;
   Vec2 displacement_at_start(std::uint32_t body, Vec2 reference) const;

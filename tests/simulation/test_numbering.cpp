@@ -114,3 +114,37 @@ TEST_CASE("a settled geometry goes from one numbering to another", "[simulation]
   const std::size_t pushed = scene.loads[0].body;
   CHECK(next.body_motion(pushed).position.x == crossed.body_motion(pushed).position.x);
 }
+
+TEST_CASE("a monitor sees what its body does, however bodies are numbered and covered",
+          "[simulation][numbering]") {
+  WorkingScene text = stacks(true);
+  text.cover = "block";
+  text.bodies += ", " + box("beam", 0, rows, 30, rows + 1, R"("cover": {"model": "hexagonal", "size": 0.7})");
+  text.monitors = R"(
+    {"name": "p", "body": "b4", "point": [4.2, 0.3], "quantities": ["ux", "stress_yy"]},
+    {"name": "q", "body": "beam", "point": [20, 20.6], "quantities": ["stress_xx"]},
+    {"name": "r", "body": "beam", "point": [20, 20.6], "quantities": ["uy"]},
+    {"name": "s", "body": "beam", "quantities": ["vy", "stress_xy"]},
+    {"name": "t", "body": "beam", "quantities": ["vy"]})";
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  const Scene& scene = simulation.scene();
+  REQUIRE_FALSE(numbering_of(scene).inner.empty());
+  for (std::size_t i = 0; i < scene.monitors.size(); ++i) {
+    const Monitor& monitor = scene.monitors[i];
+    const Motion seen = simulation.monitor_motion(i),
+                 due = monitor.point ? simulation.point_motion(monitor.body, *monitor.point)
+                                     : simulation.body_motion(monitor.body);
+    INFO(monitor.name);
+    CHECK(seen.position.x == due.position.x);
+    CHECK(seen.displacement.y == due.displacement.y);
+    CHECK(seen.velocity.y == due.velocity.y);
+    CHECK(seen.rotation == due.rotation);
+    CHECK(due.stress_yy != 0);
+    const bool with_stress = monitor.name == "p" || monitor.name == "q" || monitor.name == "s";
+    CHECK(seen.stress_xx == (with_stress ? due.stress_xx : 0));
+    CHECK(seen.stress_yy == (with_stress ? due.stress_yy : 0));
+    CHECK(seen.stress_xy == (with_stress ? due.stress_xy : 0));
+  }
+}

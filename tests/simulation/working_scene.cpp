@@ -30,8 +30,8 @@ Scene WorkingScene::read(Registry& registry) const {
   const std::string text = fmt::format(
       R"({{"talus": 1, "gravity": {}, "materials": {{"rock": {{{}}}}}, "cover": {{"model": "{}"}},
           "contact": {{"model": "{}"}}, "interfaces": [{{"between": ["*", "*"], {}}}], {}
-          "bodies": [{}], "monitors": [], "time": {}, "output": {}}})",
-      gravity, material, cover, law, interface, rest, bodies, time, output);
+          "bodies": [{}], "monitors": [{}], "time": {}, "output": {}}})",
+      gravity, material, cover, law, interface, rest, bodies, monitors, time, output);
   return read_scene_text(text, "working.json", registry);
 }
 

@@ -26,6 +26,7 @@ struct WorkingScene {
   std::string interface =
       R"("normal_stiffness": 1e10, "tangential_stiffness": 1e10, "friction_angle": 30,
          "normal_damping": 0, "tangential_damping": 0)";
+  std::string monitors;
   std::string time = R"({"end": 1})";
   std::string output = "{}";
   std::string rest;  ///< further members of the scene, each with a comma behind

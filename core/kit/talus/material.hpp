@@ -9,7 +9,9 @@ struct MaterialBatch {
   const double* deformation[4];           ///< F = I + ∂u/∂X at t_n
   const double* previous_deformation[4];  ///< F at t_{n-1}; anything where the material does not need it
   const double* state;                    ///< [element * doubles_per_element] as left at t_{n-1}
-  double dt;                              ///< s
+  /// s. Of a law without state that needs no previous deformation the response must not depend on it: such a
+  /// law is asked for stress outside of steps, too, where output wants it.
+  double dt;
   std::uint32_t count;
 };
 
