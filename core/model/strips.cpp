@@ -180,12 +180,19 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
   const auto lead = [&](Vec2 p) {
     return dot(minus(p, competitor_start), other) - dot(minus(p, start), own);
   };
-  if (lead(corners[0]) < 0 || lead(corners[1]) < 0) return count;
-  Corners kept{};
+  std::array<double, std::tuple_size_v<Corners>> leads;
+  bool all_ahead = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    leads[i] = lead(corners[i]);
+    all_ahead = all_ahead && leads[i] >= 0;
+  }
+  if (all_ahead || leads[0] < 0 || leads[1] < 0) return count;
+  Corners kept;
   std::size_t size = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 p = corners[i], q = corners[i + 1 == count ? 0 : i + 1];
-    const double from = lead(p), to = lead(q);
+    const std::size_t next = i + 1 == count ? 0 : i + 1;
+    const Vec2 p = corners[i], q = corners[next];
+    const double from = leads[i], to = leads[next];
     if (from >= 0) kept[size++] = p;
     if ((from >= 0) != (to >= 0)) {
       const double share = from / (from - to);
