@@ -57,6 +57,22 @@ void disturb(const Model& model, MotionState& motion) {
 }
 
 /// Element by element from Eq. 18 as it is written, with a material evaluated one by one.
+/// What a material without a past says of an element, F and P as xx, xy, yx, yy.
+struct PlainResponse {
+  double f[4], p[4], energy;
+};
+
+PlainResponse plain_response(const Material& material, const Matrix2& h) {
+  PlainResponse r{{1 + h.xx, h.xy, h.yx, 1 + h.yy}, {}, 0};
+  const double before[4] = {1, 0, 0, 1};
+  double dissipated = 0;
+  std::vector<double> state(material.doubles_per_element()), next(state);
+  MaterialBatch batch{
+      {r.f, r.f + 1, r.f + 2, r.f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
+  material.evaluate(batch, {{r.p, r.p + 1, r.p + 2, r.p + 3}, &r.energy, &dissipated, next.data()});
+  return r;
+}
+
 std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const MotionState& motion,
                                double& stored) {
   const Choice& choice = scene.materials[0].model;
@@ -66,12 +82,7 @@ std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const Mot
     const Element& element = model.elements[e];
     const double area = model.element_area[e];
     const Matrix2 h = gradient(element, motion.patch_displacement);
-    const double f[4] = {1 + h.xx, h.xy, h.yx, 1 + h.yy}, before[4] = {1, 0, 0, 1};
-    double p[4], energy = 0, dissipated = 0;
-    std::vector<double> state(material->doubles_per_element()), next(state);
-    MaterialBatch batch{
-        {f, f + 1, f + 2, f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
-    material->evaluate(batch, {{p, p + 1, p + 2, p + 3}, &energy, &dissipated, next.data()});
+    const auto& [f, p, energy] = plain_response(*material, h);
     stored += area * energy;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 g = element.gradient[i];
@@ -159,12 +170,7 @@ TEST_CASE("stress for output is that of the elements one by one, kept or not", "
       for (std::uint32_t i = b.element_begin; i < b.element_end; ++i) {
         const std::uint32_t e = model.body_element[i];
         const Matrix2 h = gradient(model.elements[e], motion.patch_displacement);
-        const double f[4] = {1 + h.xx, h.xy, h.yx, 1 + h.yy}, before[4] = {1, 0, 0, 1};
-        double p[4], energy = 0, dissipated = 0;
-        std::vector<double> state(material->doubles_per_element()), next(state);
-        MaterialBatch batch{
-            {f, f + 1, f + 2, f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
-        material->evaluate(batch, {{p, p + 1, p + 2, p + 3}, &energy, &dissipated, next.data()});
+        const auto& [f, p, energy] = plain_response(*material, h);
         const double volume = f[0] * f[3] - f[1] * f[2];
         const std::array<double, 3> due{(p[0] * f[0] + p[1] * f[1]) / volume,
                                         (p[2] * f[2] + p[3] * f[3]) / volume,
