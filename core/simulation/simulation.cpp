@@ -14,6 +14,17 @@
 #include <utility>
 
 namespace talus {
+namespace {
+
+Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
+  motion.stress_xx = stress[0];
+  motion.stress_yy = stress[1];
+  motion.stress_xy = stress[2];
+  return motion;
+}
+
+}  // namespace
+
 Simulation::Simulation(Scene scene, const RunSettings& settings)
     : state_(std::make_unique<State>(std::move(scene), settings)) {
   state_->refuse_uncountable_steps();
@@ -231,17 +242,6 @@ std::string Simulation::state_hash() const {
   return hash_of_bytes({reinterpret_cast<const char*>(state.data()), state.size() * sizeof(double)});
 }
 
-namespace {
-
-Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
-  motion.stress_xx = stress[0];
-  motion.stress_yy = stress[1];
-  motion.stress_xy = stress[2];
-  return motion;
-}
-
-}  // namespace
-
 Motion Simulation::body_motion(std::size_t body) const {
   const State& s = *state_;
   const std::uint32_t index = s.numbering.inside(body);
@@ -257,11 +257,14 @@ Motion Simulation::point_motion(std::size_t body, Vec2 point_at_start) const {
 Motion Simulation::monitor_motion(std::size_t number) const {
   const State& s = *state_;
   const Monitor& monitor = s.scene.monitors[number];
-  if (!monitor.point && sees_stress(monitor)) return body_motion(s.numbering.outside(monitor.body));
-  if (!monitor.point) return s.motion_of(monitor.body);
+  const bool stressed = sees_stress(monitor);
+  if (!monitor.point) {
+    const Motion motion = s.motion_of(monitor.body);
+    return stressed ? with_stress(motion, s.deformation.cauchy(s.model, s.motion, monitor.body)) : motion;
+  }
   const std::uint32_t element = s.monitored_elements[number];
   const Motion motion = s.motion_of(monitor.body, element, *monitor.point);
-  return sees_stress(monitor) ? with_stress(motion, s.stress_of(monitor.body, element)) : motion;
+  return stressed ? with_stress(motion, s.stress_of(monitor.body, element)) : motion;
 }
 
 std::vector<BodyPart> Simulation::parts(std::size_t body) const {

@@ -56,7 +56,6 @@ void disturb(const Model& model, MotionState& motion) {
   }
 }
 
-/// Element by element from Eq. 18 as it is written, with a material evaluated one by one.
 /// What a material without a past says of an element, F and P as xx, xy, yx, yy.
 struct PlainResponse {
   double f[4], p[4], energy;
@@ -73,6 +72,7 @@ PlainResponse plain_response(const Material& material, const Matrix2& h) {
   return r;
 }
 
+/// Element by element from Eq. 18 as it is written, with a material evaluated one by one.
 std::vector<Vec2> plain_forces(const Scene& scene, const Model& model, const MotionState& motion,
                                double& stored) {
   const Choice& choice = scene.materials[0].model;
