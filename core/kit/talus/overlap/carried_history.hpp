@@ -27,7 +27,12 @@ class CarriedHistory {
              PairReport& report) {
     carried_.assign(report.contact_count, FrictionHistory{});
     name_strips(overlaps, report.contact_count);
-    measure_spans(overlaps, batch.dt);
+    // A contact is where its overlap is: the foot of its load may lie far from there, on another side of a
+    // corner, or where dashpots press.
+    for (std::uint32_t g = 0; g < carried_.size(); ++g) {
+      const Point centre = overlaps.centre(g);
+      carried_[g].x = centre.x, carried_[g].y = centre.y;
+    }
     if (pair.contact_count == 0) return;
     if (pair.plain() && report.contact_count == 1) {  // wherever it is: convex bodies have one contact
       add(1, read_history(batch.history + pair.slot_start * friction_doubles), carried_[0]);
@@ -38,6 +43,9 @@ class CarriedHistory {
       const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
       if (!carry_to_same_strips(old)) old_.push_back(old);
     }
+    if (old_.empty()) return;
+    spans_.clear();
+    for (std::uint32_t g = 0; g < carried_.size(); ++g) spans_.push_back(overlaps.span(g, batch.dt));
     for (std::uint32_t i = 0; i < old_.size(); ++i) carry_by_place(i, report);
   }
 
@@ -49,17 +57,6 @@ class CarriedHistory {
       if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
       carried_[overlap.group].strips =
           name_of_strips(overlap.piece[0].first_corner(), overlap.piece[1].first_corner());
-    }
-  }
-
-  /// A contact is where its overlap is: the foot of its load may lie far from there, on another side of a
-  /// corner, or where dashpots press.
-  void measure_spans(const OverlapGroups& overlaps, double dt) {
-    spans_.clear();
-    for (std::uint32_t g = 0; g < carried_.size(); ++g) {
-      spans_.push_back(overlaps.span(g, dt));
-      carried_[g].x = spans_[g].centre.x;
-      carried_[g].y = spans_[g].centre.y;
     }
   }
 

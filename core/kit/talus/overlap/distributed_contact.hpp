@@ -99,7 +99,7 @@ class DistributedContact {
       }
       report.penetration = std::max(report.penetration, penetration_);
       if (cells_.empty()) {
-        write_nothing(batch, loads, pair, g, report);
+        write_nothing(loads, pair, g, report);
         continue;
       }
       find_tangent();
@@ -121,8 +121,8 @@ class DistributedContact {
   }
 
   /// An overlap of which rounding leaves no side a cell: nothing presses, and what was stored is lost.
-  void write_nothing(const ContactBatch& batch, const ContactLoads& loads, const BodyPair& pair,
-                     std::uint32_t group, PairReport& report) {
+  void write_nothing(const ContactLoads& loads, const BodyPair& pair, std::uint32_t group,
+                     PairReport& report) {
     if (group >= pair.slot_capacity) return;
     const std::uint32_t slot = pair.slot_start + group;
     if constexpr (Law::frictional) {
@@ -133,7 +133,7 @@ class DistributedContact {
       write_history(none, loads.history + slot * friction_doubles);
     }
     if (loads.reports == nullptr) return;
-    const Point centre = finder_.span(group, batch.dt).centre;
+    const Point centre = finder_.centre(group);
     loads.reports[slot] = {centre.x, centre.y, 0, 0, 0, 0, 0, 0};
   }
 
@@ -145,8 +145,8 @@ class DistributedContact {
     if (!among_strips_) balance_ = {};
     bool uniform = !HasOwnPressure<Law>;
     std::uint32_t members = 0;
-    for (const Overlap& overlap : finder_.overlaps()) {
-      if (overlap.group != group) continue;
+    for (const std::uint32_t member : finder_.members(group)) {
+      const Overlap& overlap = finder_.overlaps()[member];
       ++members;
       const Piece& master = overlap.piece[master_body];
       const Piece& slave = overlap.piece[1 - master_body];
@@ -307,8 +307,8 @@ class DistributedContact {
   /// ends; the mean is the same whichever body comes first, and adds up to the whole along a boundary.
   void measure_arcs(std::uint32_t group, double dt) {
     double projected[2] = {0, 0}, moved[2] = {0, 0}, arc = 0;
-    for (const Overlap& overlap : finder_.overlaps()) {
-      if (overlap.group != group) continue;
+    for (const std::uint32_t member : finder_.members(group)) {
+      const Overlap& overlap = finder_.overlaps()[member];
       const Polygon& polygon = overlap.polygon;
       for (std::size_t i = 0; i < polygon.size(); ++i) {
         const SideLabel label = polygon[i].side;

@@ -44,53 +44,69 @@ class OverlapGroups {
 
   /// Numbers the groups from 0 in the order of their first members; returns how many there are.
   std::uint32_t group() {
-    std::uint32_t groups = 0;
-    for (std::uint32_t i = 0; i < count_; ++i) pool_[i].group = count_;
-    for (std::uint32_t i = 0; i < count_; ++i) {
-      if (pool_[i].group != count_) continue;
-      pool_[i].group = groups;
-      spread(groups);
-      ++groups;
+    for (std::uint32_t i = 0; i < count_; ++i) pool_[i].group = i;
+    list_stretches();
+    for (std::size_t i = 1; i < stretches_.size(); ++i) {
+      for (std::size_t j = i; j-- > 0 && stretches_[j].cut == stretches_[i].cut;) {
+        if (joined(stretches_[i], stretches_[j])) join(stretches_[i].overlap, stretches_[j].overlap);
+      }
     }
-    return groups;
+    return number_groups();
   }
 
   std::span<const Overlap> overlaps() const { return {pool_.data(), count_}; }
 
+  /// Members of a group, as places in overlaps(), rising.
+  std::span<const std::uint32_t> members(std::uint32_t group) const {
+    return std::span(member_).subspan(member_start_[group], member_start_[group + 1] - member_start_[group]);
+  }
+
+  Point centre(std::uint32_t group) const {
+    const Box box = box_of(group);
+    return 0.5 * (box.low + box.high);
+  }
+
   GroupSpan span(std::uint32_t group, double dt) const {
-    Point low{1e300, 1e300}, high{-1e300, -1e300};
     double speed = 0;
-    for (const Overlap& overlap : overlaps()) {
-      if (overlap.group != group) continue;
-      for (const Corner& corner : overlap.polygon) {
-        low = {std::min(low.x, corner.at.x), std::min(low.y, corner.at.y)};
-        high = {std::max(high.x, corner.at.x), std::max(high.y, corner.at.y)};
-      }
-      for (const Piece& piece : overlap.piece) {
-        for (std::uint32_t i = 0; i < piece.size(); ++i) speed = std::max(speed, length(piece.velocity(i)));
+    for (const std::uint32_t i : members(group)) {
+      for (const Piece& piece : pool_[i].piece) {
+        for (std::uint32_t k = 0; k < piece.size(); ++k) speed = std::max(speed, length(piece.velocity(k)));
       }
     }
+    const auto [low, high] = box_of(group);
     const double size = length(high - low), moved = 2 * speed * dt;
     const Point centre = 0.5 * (low + high), end = farthest(group, centre), other = farthest(group, end);
     const double extent = length(other - end);
     const Point along = extent > 0 ? (1 / extent) * (other - end) : Point{1, 0};
     double across = 0;
-    for (const Overlap& overlap : overlaps()) {
-      if (overlap.group != group) continue;
-      for (const Corner& corner : overlap.polygon)
+    for (const std::uint32_t i : members(group)) {
+      for (const Corner& corner : pool_[i].polygon)
         across = std::max(across, std::abs(cross(along, corner.at - centre)));
     }
     return {centre, size, size / 2 + moved, along, across + moved};
   }
 
  private:
+  struct Box {
+    Point low, high;
+  };
+  Box box_of(std::uint32_t group) const {
+    Box box{{1e300, 1e300}, {-1e300, -1e300}};
+    for (const std::uint32_t i : members(group)) {
+      for (const Corner& corner : pool_[i].polygon) {
+        box.low = {std::min(box.low.x, corner.at.x), std::min(box.low.y, corner.at.y)};
+        box.high = {std::max(box.high.x, corner.at.x), std::max(box.high.y, corner.at.y)};
+      }
+    }
+    return box;
+  }
+
   /// The corner of a group that lies farthest from a point.
   Point farthest(std::uint32_t group, Point from) const {
     Point found = from;
     double largest = 0;
-    for (const Overlap& overlap : overlaps()) {
-      if (overlap.group != group) continue;
-      for (const Corner& corner : overlap.polygon) {
+    for (const std::uint32_t i : members(group)) {
+      for (const Corner& corner : pool_[i].polygon) {
         const double distance = length(corner.at - from);
         if (distance > largest) largest = distance, found = corner.at;
       }
@@ -98,56 +114,71 @@ class OverlapGroups {
     return found;
   }
 
-  void spread(std::uint32_t group) {
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (std::uint32_t i = 0; i < count_; ++i) {
-        if (pool_[i].group != count_) continue;
-        for (std::uint32_t j = 0; j < count_ && pool_[i].group == count_; ++j) {
-          if (pool_[j].group == group && joined(pool_[i], pool_[j])) {
-            pool_[i].group = group;
-            grown = true;
-          }
-        }
+  /// Where an overlap is bounded by a cut.
+  struct Stretch {
+    std::uint64_t cut;  ///< its number, and the body's in the upper half
+    std::uint32_t overlap;
+    std::uint32_t side;  ///< of the polygon
+  };
+
+  void list_stretches() {
+    stretches_.clear();
+    for (std::uint32_t i = 0; i < count_ && count_ > 1; ++i) {
+      const Overlap& overlap = pool_[i];
+      for (std::uint32_t side = 0; side < overlap.polygon.size(); ++side) {
+        const SideLabel label = overlap.polygon[side].side;
+        if (label.body > 1 || !overlap.piece[label.body].is_cut(label.index)) continue;
+        stretches_.push_back(
+            {std::uint64_t{label.body} << 32 | overlap.piece[label.body].cut(label.index), i, side});
       }
     }
+    std::sort(stretches_.begin(), stretches_.end(), [](const Stretch& p, const Stretch& q) {
+      return std::pair{p.cut, p.overlap} < std::pair{q.cut, q.overlap};
+    });
   }
 
-  /// Whether two overlaps share a stretch of one cut.
-  static bool joined(const Overlap& p, const Overlap& q) {
-    for (std::size_t i = 0; i < p.polygon.size(); ++i) {
-      const SideLabel side = p.polygon[i].side;
-      if (!is_cut(p, side)) continue;
-      for (std::size_t j = 0; j < q.polygon.size(); ++j) {
-        const SideLabel other = q.polygon[j].side;
-        if (!is_cut(q, other) || other.body != side.body) continue;
-        if (p.piece[side.body].cut(side.index) != q.piece[side.body].cut(other.index)) continue;
-        if (stretches_meet(p, i, q, j)) return true;
-      }
-    }
-    return false;
-  }
-
-  static bool is_cut(const Overlap& overlap, SideLabel side) {
-    return side.body < 2 && overlap.piece[side.body].is_cut(side.index);
-  }
-
-  static bool stretches_meet(const Overlap& p, std::size_t i, const Overlap& q, std::size_t j) {
-    const SideLabel side = p.polygon[i].side;
-    const Point along = p.piece[side.body].tangent(side.index);
-    const auto interval = [&](const Polygon& polygon, std::size_t k) {
-      const double first = dot(along, polygon[k].at),
-                   second = dot(along, polygon[k + 1 == polygon.size() ? 0 : k + 1].at);
+  bool joined(const Stretch& p, const Stretch& q) const {
+    if (pool_[p.overlap].group == pool_[q.overlap].group) return false;
+    const SideLabel side = pool_[p.overlap].polygon[p.side].side;
+    const Point along = pool_[p.overlap].piece[side.body].tangent(side.index);
+    const auto interval = [&](const Stretch& stretch) {
+      const Polygon& polygon = pool_[stretch.overlap].polygon;
+      const double first = dot(along, polygon[stretch.side].at),
+                   second = dot(along, polygon[polygon.next(stretch.side)].at);
       return std::pair{std::min(first, second), std::max(first, second)};
     };
-    const auto [low, high] = interval(p.polygon, i);
-    const auto [other_low, other_high] = interval(q.polygon, j);
+    const auto [low, high] = interval(p);
+    const auto [other_low, other_high] = interval(q);
     return low <= other_high && other_low <= high;
+  }
+
+  void join(std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t low = std::min(pool_[p].group, pool_[q].group),
+                        high = std::max(pool_[p].group, pool_[q].group);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (pool_[i].group == high) pool_[i].group = low;
+    }
+  }
+
+  /// Until here a group has the number of its first member.
+  std::uint32_t number_groups() {
+    std::uint32_t groups = 0;
+    for (std::uint32_t i = 0; i < count_; ++i)
+      pool_[i].group = pool_[i].group == i ? groups++ : pool_[pool_[i].group].group;
+    member_start_.assign(groups + 1, 0);
+    for (const Overlap& overlap : overlaps()) ++member_start_[overlap.group];
+    for (std::uint32_t g = 0, end = 0; g < groups; ++g) member_start_[g] = end += member_start_[g];
+    member_start_[groups] = count_;
+    member_.resize(count_);
+    for (std::uint32_t i = count_; i-- > 0;) member_[--member_start_[pool_[i].group]] = i;
+    return groups;
   }
 
   OverlapFinder finder_;
   std::vector<Overlap> pool_;
   std::uint32_t count_ = 0;
+  std::vector<Stretch> stretches_;
+  std::vector<std::uint32_t> member_, member_start_;
 };
 
 }  // namespace talus::overlap
