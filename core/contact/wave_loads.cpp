@@ -230,6 +230,8 @@ double WaveLoads::add_piece_loads(const Model& model, std::uint32_t piece, std::
                                   MotionState& motion) const {
   const CornerLoad* load = corner() + first;
   if (model.is_strip[piece] != 0) {
+    const auto none = [](const CornerLoad& at) { return at.x == 0 && at.y == 0; };
+    if (none(load[0]) && none(load[1])) return 0;  // most pieces of two bodies in contact are apart
     const BoundarySide& side = model.sides[model.strips[model.piece_strip[piece]].side];
     motion.add_force(side.start, {load[0].x, load[0].y});
     motion.add_force(side.end, {load[1].x, load[1].y});
