@@ -7,17 +7,7 @@
 namespace talus {
 namespace {
 
-constexpr std::size_t gather_chunk = 1024;  ///< common patches
-
-std::size_t most_chunks(const Model& model) {
-  std::size_t most = 0;
-  for (const std::uint32_t b : model.covered_bodies) {
-    const std::size_t common =
-        model.ranges(model.bodies[b]).patch_end - model.ranges(model.bodies[b]).own_end;
-    most = std::max(most, (common + gather_chunk - 1) / gather_chunk);
-  }
-  return most;
-}
+constexpr std::uint32_t gather_chunk = 1024;  ///< common patches
 
 void add(kernels::VelocitySums& total, const kernels::VelocitySums& part) {
   total.before += part.before;
@@ -46,8 +36,16 @@ Deformation::Deformation(const Scene& scene, const Model& model, Workers& worker
       workers_(workers),
       workspaces_(static_cast<std::size_t>(workers.threads()), sweep_.workspace()),
       sums_(model.partition.subdomains.size()),
-      common_sums_(most_chunks(model)),
-      updated_(model.covered_bodies.empty() ? 0 : model.bodies.size()) {
+      free_(model.covered_bodies.empty() ? 0 : model.bodies.size()),
+      updated_(free_.size()) {
+  for (const std::uint32_t b : model.covered_bodies) {
+    const CoverRanges& ranges = model.ranges(model.bodies[b]);
+    subdomain_body_.resize(ranges.subdomain_end, b);
+    const std::uint32_t count = ranges.patch_end - ranges.own_end;
+    for (std::uint32_t begin = 0; begin < count; begin += gather_chunk)
+      common_.push_back({b, begin, std::min(begin + gather_chunk, count)});
+  }
+  common_sums_.resize(common_.size());
   lay_out_blocks(model, {});
 }
 
@@ -79,7 +77,7 @@ double Deformation::stored_in(const Model& model, std::uint32_t index) const {
 Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, double dt, bool keep) {
   const Energy blocks = apply_to_blocks(model, dt, keep, motion);
   for (UpdatedPatches& updated : updated_) updated = {};
-  for (const std::uint32_t b : model.covered_bodies) sweep(model, b, {.dt = dt, .keep = keep}, motion);
+  sweep(model, {.dt = dt, .keep = keep}, motion);
   motion.own_behind = 0;
   return sum_of(blocks, energy_of_sweeps(model));
 }
@@ -91,44 +89,48 @@ Deformation::Energy Deformation::apply_and_update(const Model& model, const Patc
   const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
-    const bool free = !support_of(supports, b).any();
-    updated_[b] = {free ? model.ranges(model.bodies[b]).free_end : 0, {}};
-    SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = free};
-    step.velocity = {
-        update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
-    step.inverse_mass = mass.inverse().data();
-    step.share = share_of_after(conditions);
-    step.middle = at_step.data();
-    sweep(model, b, step, motion);
+    free_[b] = support_of(supports, b).any() ? 0 : 1;
+    updated_[b] = {free_[b] != 0 ? model.ranges(model.bodies[b]).free_end : 0, {}};
   }
+  SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = true};
+  step.velocity = {
+      update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
+  step.inverse_mass = mass.inverse().data();
+  step.share = share_of_after(conditions);
+  step.middle = at_step.data();
+  sweep(model, step, motion);
   motion.own_behind = 0;
   return sum_of(blocks, energy_of_sweeps(model));
 }
 
-void Deformation::sweep(const Model& model, std::uint32_t index, const SweepStep& step, MotionState& motion) {
-  const Body& body = model.bodies[index];
-  const CoverRanges& ranges = model.ranges(body);
-  workers_.over(ranges.subdomain_end - ranges.subdomain_begin, 1,
-                [&](std::size_t, std::size_t begin, std::size_t end, std::size_t thread) {
-                  const auto first = static_cast<std::uint32_t>(ranges.subdomain_begin + begin),
-                             last = static_cast<std::uint32_t>(ranges.subdomain_begin + end);
-                  sweep_.run(model, body, first, last, step, materials_, motion, workspaces_[thread], sums_);
+void Deformation::sweep(const Model& model, const SweepStep& given, MotionState& motion) {
+  const auto step_of = [&](std::uint32_t body) {
+    SweepStep step = given;
+    step.update = given.update && free_[body] != 0;
+    return step;
+  };
+  workers_.over(subdomain_body_.size(), 1,
+                [&](std::size_t number, std::size_t, std::size_t, std::size_t thread) {
+                  const auto s = static_cast<std::uint32_t>(number);
+                  const std::uint32_t b = subdomain_body_[s];
+                  sweep_.run(model, model.bodies[b], s, s + 1, step_of(b), materials_, motion,
+                             workspaces_[thread], sums_);
                 });
-  workers_.over(ranges.patch_end - ranges.own_end, gather_chunk,
-                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                  const auto first = static_cast<std::uint32_t>(begin),
-                             last = static_cast<std::uint32_t>(end);
-                  sweep_.gather(model, body, first, last, motion);
-                  common_sums_[chunk] = {};
-                  const std::uint32_t free = std::min(last, ranges.free_end - ranges.own_end);
-                  if (step.update && first < free)
-                    sweep_.update_common(model, body, first, free, step, motion, common_sums_[chunk]);
-                });
-  if (!step.update) return;
-  kernels::VelocitySums& total = updated_[index].sums;
-  for (std::uint32_t s = ranges.subdomain_begin; s < ranges.subdomain_end; ++s) add(total, sums_[s].own);
-  for (std::size_t chunk = 0; chunk * gather_chunk < ranges.patch_end - ranges.own_end; ++chunk)
-    add(total, common_sums_[chunk]);
+  workers_.over(common_.size(), 1, [&](std::size_t number, std::size_t, std::size_t) {
+    const auto [b, begin, end] = common_[number];
+    const Body& body = model.bodies[b];
+    const CoverRanges& ranges = model.ranges(body);
+    sweep_.gather(model, body, begin, end, motion);
+    common_sums_[number] = {};
+    const SweepStep step = step_of(b);
+    const std::uint32_t free_end = std::min(end, ranges.free_end - ranges.own_end);
+    if (step.update && begin < free_end)
+      sweep_.update_common(model, body, begin, free_end, step, motion, common_sums_[number]);
+  });
+  if (!given.update) return;
+  for (std::size_t s = 0; s < subdomain_body_.size(); ++s)
+    add(updated_[subdomain_body_[s]].sums, sums_[s].own);
+  for (std::size_t i = 0; i < common_.size(); ++i) add(updated_[common_[i].body].sums, common_sums_[i]);
 }
 
 Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {

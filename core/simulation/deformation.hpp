@@ -77,7 +77,8 @@ class Deformation {
   Energy apply_to_blocks(const Model& model, double dt, bool keep, MotionState& motion);
   Energy apply_to(const Model& model, const Blocks& blocks, double dt, bool keep, ElementBuffer& buffer,
                   MotionState& motion);
-  void sweep(const Model& model, std::uint32_t body, const SweepStep& step, MotionState& motion);
+  /// Of all bodies of many elements at once; those that are `free_` are updated, if any are to be.
+  void sweep(const Model& model, const SweepStep& given, MotionState& motion);
   Energy energy_of_sweeps(const Model& model) const;
 
   MaterialBatches materials_;
@@ -85,7 +86,14 @@ class Deformation {
   Workers& workers_;
   std::vector<ElementSweep::Workspace> workspaces_;  ///< [thread]
   std::vector<SweepSums> sums_;                      ///< [subdomain]
-  std::vector<kernels::VelocitySums> common_sums_;   ///< [chunk of the common patches of a body]
+  std::vector<std::uint32_t> subdomain_body_;        ///< [subdomain]
+  /// Common patches of a body, counted from its first.
+  struct CommonPatches {
+    std::uint32_t body, begin, end;
+  };
+  std::vector<CommonPatches> common_;               ///< of all, in chunks
+  std::vector<kernels::VelocitySums> common_sums_;  ///< [entry of common_]
+  std::vector<char> free_;                          ///< [body] it has no supports
   std::vector<UpdatedPatches> updated_;
 
   std::vector<Blocks> blocks_;
