@@ -141,12 +141,12 @@ class ContactStage {
   /// Part of the pairs: those whose loads are held at once.
   struct Wave {
     std::size_t number, begin, end;
-    std::size_t first_chunk() const { return begin / pair_chunk; }
-    std::size_t end_chunk() const { return (end + pair_chunk - 1) / pair_chunk; }
+    std::size_t first_chunk, end_chunk;  ///< in chunk_totals_
   };
   Wave wave(std::size_t number) const {
-    const std::size_t size = pairs_of_wave(workers_.threads()), begin = number * size;
-    return {number, begin, std::min(begin + size, pairs_.size())};
+    const std::size_t size = pairs_of_wave(workers_.threads()), begin = number * size,
+                      end = std::min(begin + size, pairs_.size());
+    return {number, begin, end, begin / pair_chunk_, (end + pair_chunk_ - 1) / pair_chunk_};
   }
   void evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
                 const kernels::Way& gone);
@@ -164,8 +164,8 @@ class ContactStage {
   ContactTotals totals() const;
   template <class Is>
   bool any_chunk(const Wave& wave, const Is& is) const {
-    return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk()),
-                       chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk()), is);
+    return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk),
+                       chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.end_chunk), is);
   }
   LawFault runaway() const;
   LawFault fault_of(const Model& model, const MotionState& motion, const Wave& wave) const;
@@ -186,9 +186,10 @@ class ContactStage {
   std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
-  double near_;        ///< m, up to which bodies are neighbours
-  double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
-  double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
+  std::size_t pair_chunk_;  ///< pairs
+  double near_;             ///< m, up to which bodies are neighbours
+  double skin_;             ///< m, the same, or 0 where pairs are sought anew in every step
+  double slack_ = -1;       ///< m left before neighbours are sought again; negative: at once
   std::uint64_t searches_ = 0;
 
   std::vector<Workspace> workspaces_;  ///< [thread]

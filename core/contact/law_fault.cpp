@@ -40,7 +40,7 @@ LawFault ContactStage::runaway() const {
 /// Of the pairs of the wave that was evaluated last. Looks at loads only where the host takes them from.
 LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, const Wave& wave) const {
   if (!loads_.intact()) return {"a load written past the last corner of all pairs"};
-  for (std::size_t i = wave.first_chunk(); i < wave.end_chunk(); ++i) {
+  for (std::size_t i = wave.first_chunk; i < wave.end_chunk; ++i) {
     if (chunk_totals_[i].unsound == no_pair) continue;
     const BodyPair& pair = pairs_[chunk_totals_[i].unsound];
     return {"a report that is no number", true, pair.a, pair.b};

@@ -41,19 +41,21 @@ std::uint64_t work_of_busiest(std::span<const BodyPair> pairs, int threads,
 
 }  // namespace
 
-bool worth_dividing_anew(std::span<const BodyPair> pairs, int threads,
+bool worth_dividing_anew(std::span<const BodyPair> pairs, std::size_t chunk, int threads,
                          std::span<const std::uint32_t> batch_begin, std::vector<std::uint32_t>& other) {
   constexpr double worth = 1.05;
-  divide_into_batches(pairs, threads, other);
+  divide_into_batches(pairs, chunk, threads, other);
   return static_cast<double>(work_of_busiest(pairs, threads, batch_begin)) >
          worth * static_cast<double>(work_of_busiest(pairs, threads, other));
 }
 
-void divide_into_batches(std::span<const BodyPair> pairs, int threads,
+void divide_into_batches(std::span<const BodyPair> pairs, std::size_t chunk, int threads,
                          std::vector<std::uint32_t>& batch_begin) {
-  // Of several threads the one that is done first takes over a batch of another. Few pairs wake nobody.
-  const bool few = pairs.size() <= 4 * pair_chunk;
-  const std::size_t shares = threads == 1 || few ? 1 : 2 * static_cast<std::size_t>(threads),
+  // Of several threads the one that is done first takes over a batch of another, of heavy pairs more often:
+  // how heavy each is shows badly beforehand. Few pairs wake nobody.
+  const bool alone = threads == 1 || pairs.size() <= 4 * chunk;
+  const std::size_t of_thread = chunk == pair_chunk ? 2 : 8,
+                    shares = alone ? 1 : of_thread * static_cast<std::size_t>(threads),
                     large = shares * large_batch;
   batch_begin.assign(1, 0);
   for (std::size_t first = 0; first < pairs.size(); first += pairs_of_wave(threads)) {
@@ -62,8 +64,8 @@ void divide_into_batches(std::span<const BodyPair> pairs, int threads,
     const std::size_t batches = shares * ((wave.size() + large - 1) / large);
     const std::uint64_t all = work_of_all(wave);
     std::uint64_t before = 0, batch = 1;
-    for (std::size_t i = 0; i < wave.size(); i += pair_chunk) {
-      const std::uint64_t here = work_of_all(wave.subspan(i, std::min(pair_chunk, wave.size() - i)));
+    for (std::size_t i = 0; i < wave.size(); i += chunk) {
+      const std::uint64_t here = work_of_all(wave.subspan(i, std::min(chunk, wave.size() - i)));
       // A batch ends at the chunk that begins nearest to its share of the work.
       const auto shares_before = [&] { return (2 * before + here) * batches / (2 * all); };
       if (i > 0 && shares_before() >= batch) {

@@ -16,7 +16,7 @@ constexpr std::uint32_t corners_of_line = 64 / sizeof(CornerLoad);  ///< loads o
 constexpr double guard_load = -1.2345678901234567e-300;
 constexpr std::uint32_t nowhere = 0xFFFFFFFFu;
 constexpr std::uint32_t no_loads = 0;  ///< where zeros stand, before all loads
-constexpr std::size_t body_chunk = 64;
+constexpr std::size_t gather_at_once = 64, gather_covered_at_once = 4;
 constexpr std::uint32_t most_summed = std::numeric_limits<std::uint16_t>::max();
 
 std::uint32_t corners_of(const Model& model, std::uint32_t piece) {
@@ -211,7 +211,8 @@ bool WaveLoads::add(const Model& model, std::span<const char> still, MotionState
   const kernels::GatheredLoads loads{bodies_.data() + first, first_.data(), corner_.data(), sum_.data(),
                                      still.empty() ? nullptr : still.data()};
   std::atomic<bool> sound{true};
-  workers_.over(count, body_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+  const std::size_t at_once = model.mostly_covered() ? gather_covered_at_once : gather_at_once;
+  workers_.over(count, at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
     double all = kernels_.add_loads(loads, model.reference_x.data(), model.reference_y.data(),
                                     motion.forces.data(), begin, end);
     for (std::size_t i = begin; i < end && any_divided_; ++i) {

@@ -160,6 +160,8 @@ struct Model {
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
   bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
+  /// Whether most moving bodies have many elements: then few bodies are much work.
+  bool mostly_covered() const { return 2 * covered_bodies.size() > moving_bodies.size(); }
   CoverRanges& ranges(const Body& body) { return cover_ranges[body.ranges]; }
   const CoverRanges& ranges(const Body& body) const { return cover_ranges[body.ranges]; }
   /// Whether the body is convex itself.

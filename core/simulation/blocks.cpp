@@ -10,6 +10,8 @@
 namespace talus {
 namespace {
 
+constexpr std::size_t covered_at_once = 4, others_at_once = 64;
+
 void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift) {
   const double squared = v.x * v.x + v.y * v.y, off_x = v.x - drift.x, off_y = v.y - drift.y;
   all.add({squared, squared, v.x, v.x, v.y, v.y, off_x * off_x + off_y * off_y, true});
@@ -67,6 +69,7 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool bound
     some_fixed_ = some_fixed_ || body.kinematics == Kinematics::fixed;
     if (body.kinematics != Kinematics::fixed && block.corner_count == 0) others_.push_back(i);
   }
+  other_speeds_.resize(others_.size());
   find_stretches();
 }
 
@@ -152,21 +155,27 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
       if (is_asleep(body)) motion.forces[body] = {};
     }
   }
-  for (const std::uint32_t body : others_) {
-    motion.forces[body] = {};
-    if (is_asleep(body)) continue;
-    if (!boundary_seen_ && model.covered(body)) {
-      all.add(speeds_of_sides(model, motion, model.bodies[body], drift));
-      continue;
-    }
-    motion.move_corners(model, body);
-    all.add(speeds_of_corners(model, motion, model.bodies[body], drift));
-  }
+  const std::size_t at_once = model.mostly_covered() ? covered_at_once : others_at_once;
+  workers_.over(others_.size(), at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      other_speeds_[i] = follow_other(model, drift, others_[i], motion);
+  });
+  for (const kernels::SpeedExtremes& part : other_speeds_) all.add(part);
   if (!all.any) return {};
   if (some_fixed_ || !asleep_.empty()) all.add({0, 0, 0, 0, 0, 0, 0, true});
   if (!std::isfinite(all.sum)) return {std::numeric_limits<double>::quiet_NaN(), 0, 0};
   const double dx = all.high_x - all.low_x, dy = all.high_y - all.low_y;
   return {std::sqrt(all.squared), std::sqrt(dx * dx + dy * dy), std::sqrt(all.stray_squared)};
+}
+
+kernels::SpeedExtremes Blocks::follow_other(const Model& model, std::span<const kernels::CornerDrift> drift,
+                                            std::uint32_t body, MotionState& motion) const {
+  motion.forces[body] = {};
+  if (is_asleep(body)) return {};
+  if (!boundary_seen_ && model.covered(body))
+    return speeds_of_sides(model, motion, model.bodies[body], drift);
+  motion.move_corners(model, body);
+  return speeds_of_corners(model, motion, model.bodies[body], drift);
 }
 
 /// Bodies [begin, end) of a chunk; of their motion at t_n the velocity is kept.

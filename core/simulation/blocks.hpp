@@ -42,6 +42,8 @@ class Blocks {
     std::size_t begin, end;
   };
   void find_stretches();
+  kernels::SpeedExtremes follow_other(const Model& model, std::span<const kernels::CornerDrift> drift,
+                                      std::uint32_t body, MotionState& motion) const;
   void accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
                            MotionState& motion, kernels::BlockSums& sums) const;
   /// Calls `each` with the index of an entry of chunks_ and its stretches, in their order.
@@ -67,7 +69,8 @@ class Blocks {
   std::vector<Chunk> chunks_;
   bool boundary_seen_;
   bool some_fixed_ = false;
-  std::vector<kernels::SpeedExtremes> speeds_;
+  std::vector<kernels::SpeedExtremes> speeds_;        ///< [chunk]
+  std::vector<kernels::SpeedExtremes> other_speeds_;  ///< [entry of others_]
   std::vector<kernels::BlockSums> sums_;
 };
 
