@@ -39,6 +39,7 @@ Scene scene_of(const Load& load) {
   ReadOptions options;
   options.overrides = {{"/contact/model", load.law}};
   if (load.sleep) options.overrides.push_back({"/sleep", "{}"});
+  if (!load.cover.empty()) options.overrides.push_back({"/cover", load.cover});
   Scene scene = read_scene_text(generated(load.generator), load.generator, registry(), options);
   scene.time.end = 1000;
   scene.output.frames.reset();

@@ -12,6 +12,7 @@ struct Load {
   std::string law;         ///< contact law
   bool one_sided = false;  ///< roles by priority instead of both roles: one evaluation of each overlap
   bool sleep = false;      ///< islands at rest sleep
+  std::string cover{};     ///< of all bodies, as JSON; empty: that of the script
 };
 
 /// What a script of scenes/generate writes, by its name and arguments. Throws std::runtime_error when it

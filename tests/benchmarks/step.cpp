@@ -19,6 +19,7 @@ namespace talus::benchmarks {
 namespace {
 
 constexpr double block_steps_per_iteration = 2e5;
+constexpr double block_steps_of_many_elements = 5e3;
 constexpr int iterations = 5;  ///< fixed, so that every machine measures the same stretch of the run
 
 /// A scene, and how long it runs before it is measured.
@@ -35,7 +36,8 @@ void measure(benchmark::State& state, const Load& load, double warm_up, int thre
   for (const SceneBody& body : scene.bodies) blocks += body.fixed ? 0 : 1;
   const double dt = Simulation(scene, {}).automatic_dt();
   scene.time.dt = dt;
-  const double steps = std::ceil(block_steps_per_iteration / blocks);
+  const double block_steps = load.cover.empty() ? block_steps_per_iteration : block_steps_of_many_elements,
+               steps = std::ceil(block_steps / blocks);
   scene.output.history = steps * dt;
 
   forget_peak();
@@ -128,12 +130,23 @@ void register_crowds() {
   }
 }
 
+/// Blocks of some thirty elements each, which touch all around.
+void register_many_elements() {
+  for (const int blocks : {32, 126}) {
+    register_case(fmt::format("many_elements/{}/symmetric", blocks),
+                  {fmt::format("sliding.py --blocks {} --cover block --roles symmetric", blocks),
+                   "overlap_area", false, false, R"({"model": "hexagonal", "size": 0.3})"},
+                  1e-3);
+  }
+}
+
 }  // namespace
 
 void register_steps() {
   register_laws();
   register_rest();
   register_crowds();
+  register_many_elements();
 }
 
 }  // namespace talus::benchmarks
