@@ -133,12 +133,13 @@ class VertexEdge final : public ContactModel {
       geometry.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
       geometry.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
                                 pieces.load_start + geometry.piece[0].size());
-      const double touching =
-          1e-12 * std::min(longest_side(geometry.piece[0]), longest_side(geometry.piece[1]));
+      const double touching = batch.bonds_form ? 1e-12 * std::min(longest_side(geometry.piece[0]),
+                                                                  longest_side(geometry.piece[1]))
+                                               : 0.0;
       const auto bond_reach = [&](std::uint32_t key) {
         const SpringHistory* old = find_old(work.old, key);
         if (old != nullptr && old->intact == 1) return reach_of_bonds(batch.interfaces, batch.hold_stick);
-        return batch.bonds_form ? touching : 0.0;
+        return touching;
       };
       work.finder.find(geometry, e, bond_reach, work.found);
     }

@@ -51,6 +51,10 @@ class CellDivider {
   /// Calls visit(side, cell) for each master side that owns a part of the overlap.
   template <class Visit>
   void divide(const Piece& master, const Polygon& overlap, const Visit& visit) {
+    if (master.is_strip()) {  // all of it lies behind side 0
+      if (master.real(0)) visit(0u, overlap);
+      return;
+    }
     find_competitors(master, overlap);
     for (const std::uint32_t k : competitors_) {
       cell_.assign(overlap);

@@ -151,7 +151,7 @@ class DistributedContact {
       const Piece& master = overlap.piece[master_body];
       const Piece& slave = overlap.piece[1 - master_body];
       divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
-        const AreaCentroid region = area_centroid(cell);
+        const AreaCentroid region = &cell == &overlap.polygon ? overlap.region : area_centroid(cell);
         if (!(region.area > 0)) return;
         const auto first_segment = static_cast<std::uint32_t>(segments_.size());
         find_segments(master, slave, side, 1 - master_body, cell);

@@ -10,6 +10,7 @@ namespace talus::overlap {
 struct Overlap {
   Piece piece[2];
   Polygon polygon;
+  AreaCentroid region;
   std::uint32_t group = 0;
 };
 
@@ -35,7 +36,9 @@ class OverlapGroups {
       overlap.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
                                pieces.load_start + overlap.piece[0].size());
       const Polygon& polygon = finder_.find(overlap.piece[0], overlap.piece[1]);
-      if (polygon.empty() || !(area_centroid(polygon).area > 0)) continue;
+      if (polygon.empty()) continue;
+      overlap.region = area_centroid(polygon);
+      if (!(overlap.region.area > 0)) continue;
       overlap.polygon.assign(polygon);
       ++count_;
     }
