@@ -7,7 +7,8 @@
 namespace talus {
 namespace {
 
-constexpr std::uint32_t gather_chunk = 1024;  ///< common patches
+constexpr std::uint32_t gather_chunk = 1024;     ///< common patches
+constexpr std::uint32_t elements_at_once = 512;  ///< at least, for a thread to take
 
 void add(kernels::VelocitySums& total, const kernels::VelocitySums& part) {
   total.before += part.before;
@@ -46,7 +47,31 @@ Deformation::Deformation(const Scene& scene, const Model& model, Workers& worker
       common_.push_back({b, begin, std::min(begin + gather_chunk, count)});
   }
   common_sums_.resize(common_.size());
+  divide_sweeps(model);
   lay_out_blocks(model, {});
+}
+
+/// A loop costs a few microseconds to hand out: small bodies go together.
+void Deformation::divide_sweeps(const Model& model) {
+  const auto put = [](std::vector<Range>& ranges, std::uint32_t& work, std::uint32_t entry,
+                      std::uint32_t more, std::uint32_t enough) {
+    if (ranges.empty() || work >= enough) {
+      ranges.push_back({entry, entry});
+      work = 0;
+    }
+    ranges.back().end = entry + 1;
+    work += more;
+  };
+  std::uint32_t elements = 0, patches = 0;
+  for (std::uint32_t s = 0; s < subdomain_body_.size(); ++s) {
+    const Subdomain& subdomain = model.partition.subdomains[s];
+    std::uint32_t count = 0;
+    for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c)
+      count += model.partition.chunks[c].count;
+    put(sweeps_, elements, s, count, elements_at_once);
+  }
+  for (std::uint32_t i = 0; i < common_.size(); ++i)
+    put(gathers_, patches, i, common_[i].end - common_[i].begin, gather_chunk);
 }
 
 /// What sleeps is left out.
@@ -109,23 +134,26 @@ void Deformation::sweep(const Model& model, const SweepStep& given, MotionState&
     step.update = given.update && free_[body] != 0;
     return step;
   };
-  workers_.over(subdomain_body_.size(), 1,
-                [&](std::size_t number, std::size_t, std::size_t, std::size_t thread) {
-                  const auto s = static_cast<std::uint32_t>(number);
-                  const std::uint32_t b = subdomain_body_[s];
-                  sweep_.run(model, model.bodies[b], s, s + 1, step_of(b), materials_, motion,
-                             workspaces_[thread], sums_);
-                });
-  workers_.over(common_.size(), 1, [&](std::size_t number, std::size_t, std::size_t) {
-    const auto [b, begin, end] = common_[number];
-    const Body& body = model.bodies[b];
-    const CoverRanges& ranges = model.ranges(body);
-    sweep_.gather(model, body, begin, end, motion);
-    common_sums_[number] = {};
-    const SweepStep step = step_of(b);
-    const std::uint32_t free_end = std::min(end, ranges.free_end - ranges.own_end);
-    if (step.update && begin < free_end)
-      sweep_.update_common(model, body, begin, free_end, step, motion, common_sums_[number]);
+  workers_.over(sweeps_.size(), 1, [&](std::size_t number, std::size_t, std::size_t, std::size_t thread) {
+    const auto [begin, end] = sweeps_[number];
+    for (std::uint32_t s = begin, next; s < end; s = next) {
+      const std::uint32_t b = subdomain_body_[s];
+      next = std::min(end, model.ranges(model.bodies[b]).subdomain_end);
+      sweep_.run(model, model.bodies[b], s, next, step_of(b), materials_, motion, workspaces_[thread], sums_);
+    }
+  });
+  workers_.over(gathers_.size(), 1, [&](std::size_t number, std::size_t, std::size_t) {
+    for (std::uint32_t i = gathers_[number].begin; i < gathers_[number].end; ++i) {
+      const auto [b, begin, end] = common_[i];
+      const Body& body = model.bodies[b];
+      const CoverRanges& ranges = model.ranges(body);
+      sweep_.gather(model, body, begin, end, motion);
+      common_sums_[i] = {};
+      const SweepStep step = step_of(b);
+      const std::uint32_t free_end = std::min(end, ranges.free_end - ranges.own_end);
+      if (step.update && begin < free_end)
+        sweep_.update_common(model, body, begin, free_end, step, motion, common_sums_[i]);
+    }
   });
   if (!given.update) return;
   for (std::size_t s = 0; s < subdomain_body_.size(); ++s)

@@ -73,6 +73,7 @@ class Deformation {
   struct Blocks {
     std::uint32_t batch, element, count;
   };
+  void divide_sweeps(const Model& model);
   void lay_out_blocks(const Model& model, std::span<const std::uint32_t> asleep);
   Energy apply_to_blocks(const Model& model, double dt, bool keep, MotionState& motion);
   Energy apply_to(const Model& model, const Blocks& blocks, double dt, bool keep, ElementBuffer& buffer,
@@ -91,7 +92,11 @@ class Deformation {
   struct CommonPatches {
     std::uint32_t body, begin, end;
   };
-  std::vector<CommonPatches> common_;               ///< of all, in chunks
+  std::vector<CommonPatches> common_;  ///< of all, in chunks
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  std::vector<Range> sweeps_, gathers_;  ///< subdomains, entries of common_ that a thread takes at once
   std::vector<kernels::VelocitySums> common_sums_;  ///< [entry of common_]
   std::vector<char> free_;                          ///< [body] it has no supports
   std::vector<UpdatedPatches> updated_;
