@@ -34,7 +34,7 @@ bool ContactStage::find_pairs(const Model& model, MotionState& motion, double dt
   if (!due && !every_step) {
     shape_listed(model, motion);
     if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
-        worth_dividing_anew(pairs_, pair_chunk_, workers_.threads(), batch_begin_, other_batches_))
+        worth_dividing_anew(pairs_, sharing_, workers_.threads(), batch_begin_, other_batches_))
       share_anew(model);
     drift_on(model, motion);
     return false;
@@ -192,10 +192,10 @@ void ContactStage::share_anew(const Model& model) {
 
 /// Of the pairs there are.
 void ContactStage::lay_out_loads(const Model& model) {
-  divide_into_batches(pairs_, pair_chunk_, workers_.threads(), batch_begin_);
+  divide_into_batches(pairs_, sharing_, workers_.threads(), batch_begin_);
   loads_.lay_out(model, pairs_, batch_begin_, piece_pairs_, first_piece_);
   if (keeps_stored_) stored_.resize(pairs_.size());
-  chunk_totals_.resize((pairs_.size() + pair_chunk_ - 1) / pair_chunk_);
+  chunk_totals_.resize((pairs_.size() + sharing_.chunk - 1) / sharing_.chunk);
   // Between searches nobody asks for memory: batches are whole chunks.
   if (workers_.threads() > 1) make_room_in(other_batches_, chunk_totals_.size() + 1);
 }

@@ -69,7 +69,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
     : law_(nullptr, noop),
       workers_(workers),
       kernels_(kernels::contact_kernels(level)),
-      pair_chunk_(model.mostly_covered() ? heavy_pair_chunk : pair_chunk),
+      sharing_(model.mostly_covered() ? heavy_pairs : plain_pairs),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
       workspaces_(static_cast<std::size_t>(workers.threads())),
@@ -187,7 +187,7 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   const auto add_energies = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
     for (const std::uint32_t i : active) {
       const std::size_t pair = batch_begin_[batch] + i;
-      ChunkTotals& chunk = chunk_totals_[pair / pair_chunk_];
+      ChunkTotals& chunk = chunk_totals_[pair / sharing_.chunk];
       chunk.stored += found.reports[i].stored;
       chunk.slip_loss += found.reports[i].slip_loss;
       if (found.reports[i].contact_count > pairs_[pair].slot_capacity) note_short_of_room(pair, i, found);
@@ -279,10 +279,10 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     for (const std::uint32_t i : active) stored_[begin + i] = found.reports[i].stored;
   }
   while (!active.empty()) {
-    const std::size_t in_batch = active.front() / pair_chunk_, end = (in_batch + 1) * pair_chunk_;
-    const auto first = active.begin(), last = first + std::min(active.size(), pair_chunk_);
+    const std::size_t in_batch = active.front() / sharing_.chunk, end = (in_batch + 1) * sharing_.chunk;
+    const auto first = active.begin(), last = first + std::min(active.size(), sharing_.chunk);
     const auto of_chunk = active.first(std::lower_bound(first, last, end) - first);
-    ChunkTotals& chunk = chunk_totals_[begin / pair_chunk_ + in_batch];
+    ChunkTotals& chunk = chunk_totals_[begin / sharing_.chunk + in_batch];
     kernels::ClosedChunk closed;
     kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
     for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_, piece_pairs(), begin + i, true);

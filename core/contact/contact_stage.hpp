@@ -146,7 +146,7 @@ class ContactStage {
   Wave wave(std::size_t number) const {
     const std::size_t size = pairs_of_wave(workers_.threads()), begin = number * size,
                       end = std::min(begin + size, pairs_.size());
-    return {number, begin, end, begin / pair_chunk_, (end + pair_chunk_ - 1) / pair_chunk_};
+    return {number, begin, end, begin / sharing_.chunk, (end + sharing_.chunk - 1) / sharing_.chunk};
   }
   void evaluate(const Model& model, MotionState& motion, const Conditions& conditions,
                 const kernels::Way& gone);
@@ -186,10 +186,10 @@ class ContactStage {
   std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
-  std::size_t pair_chunk_;  ///< pairs
-  double near_;             ///< m, up to which bodies are neighbours
-  double skin_;             ///< m, the same, or 0 where pairs are sought anew in every step
-  double slack_ = -1;       ///< m left before neighbours are sought again; negative: at once
+  PairSharing sharing_;
+  double near_;        ///< m, up to which bodies are neighbours
+  double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
+  double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
   std::uint64_t searches_ = 0;
 
   std::vector<Workspace> workspaces_;  ///< [thread]

@@ -41,21 +41,19 @@ std::uint64_t work_of_busiest(std::span<const BodyPair> pairs, int threads,
 
 }  // namespace
 
-bool worth_dividing_anew(std::span<const BodyPair> pairs, std::size_t chunk, int threads,
+bool worth_dividing_anew(std::span<const BodyPair> pairs, const PairSharing& sharing, int threads,
                          std::span<const std::uint32_t> batch_begin, std::vector<std::uint32_t>& other) {
   constexpr double worth = 1.05;
-  divide_into_batches(pairs, chunk, threads, other);
+  divide_into_batches(pairs, sharing, threads, other);
   return static_cast<double>(work_of_busiest(pairs, threads, batch_begin)) >
          worth * static_cast<double>(work_of_busiest(pairs, threads, other));
 }
 
-void divide_into_batches(std::span<const BodyPair> pairs, std::size_t chunk, int threads,
+void divide_into_batches(std::span<const BodyPair> pairs, const PairSharing& sharing, int threads,
                          std::vector<std::uint32_t>& batch_begin) {
-  // Of several threads the one that is done first takes over a batch of another, of heavy pairs more often:
-  // how heavy each is shows badly beforehand. Few pairs wake nobody.
-  const bool alone = threads == 1 || pairs.size() <= 4 * chunk;
-  const std::size_t of_thread = chunk == pair_chunk ? 2 : 8,
-                    shares = alone ? 1 : of_thread * static_cast<std::size_t>(threads),
+  const std::size_t chunk = sharing.chunk;
+  const bool alone = threads == 1 || pairs.size() <= 4 * chunk;  // few pairs wake nobody
+  const std::size_t shares = alone ? 1 : sharing.batches_of_thread * static_cast<std::size_t>(threads),
                     large = shares * large_batch;
   batch_begin.assign(1, 0);
   for (std::size_t first = 0; first < pairs.size(); first += pairs_of_wave(threads)) {

@@ -20,9 +20,9 @@ std::vector<BodyPair> pairs_touching_from(std::size_t first, std::size_t count) 
 }
 
 std::vector<std::uint32_t> batches(const std::vector<BodyPair>& pairs, int threads,
-                                   std::size_t chunk = pair_chunk) {
+                                   const PairSharing& sharing = plain_pairs) {
   std::vector<std::uint32_t> begin{7, 7, 7};
-  divide_into_batches(pairs, chunk, threads, begin);
+  divide_into_batches(pairs, sharing, threads, begin);
   return begin;
 }
 
@@ -69,14 +69,22 @@ TEST_CASE("one thread has as few batches as their size allows, others share the 
 }
 
 TEST_CASE("pairs of bodies of many elements are shared where others would be too few", "[contact][batches]") {
-  CHECK(batches(pairs_touching_from(0, 4 * heavy_pair_chunk), 2, heavy_pair_chunk).size() == 2);
-  CHECK(batches(pairs_touching_from(0, 4 * heavy_pair_chunk + 1), 2, heavy_pair_chunk).size() == 6);
-  const std::vector<std::uint32_t> begin = batches(pairs_touching_from(0, 352), 2, heavy_pair_chunk);
+  CHECK(batches(pairs_touching_from(0, 4 * heavy_pairs.chunk), 2, heavy_pairs).size() == 2);
+  CHECK(batches(pairs_touching_from(0, 4 * heavy_pairs.chunk + 1), 2, heavy_pairs).size() == 6);
+  const std::vector<std::uint32_t> begin = batches(pairs_touching_from(0, 352), 2, heavy_pairs);
   REQUIRE(begin.size() == 17);
   for (std::size_t i = 1; i < 16; ++i) {
-    CHECK(begin[i] % heavy_pair_chunk == 0);
-    CHECK(begin[i] == Approx(static_cast<double>(22 * i)).margin(heavy_pair_chunk / 2.0));
+    CHECK(begin[i] % heavy_pairs.chunk == 0);
+    CHECK(begin[i] == Approx(static_cast<double>(22 * i)).margin(heavy_pairs.chunk / 2.0));
   }
+}
+
+TEST_CASE("pairs of bodies of many elements are divided anew as others are", "[contact][batches]") {
+  std::vector<std::uint32_t> other;
+  const std::vector<std::uint32_t> begin = batches(pairs_touching_from(100, 200), 2, heavy_pairs);
+  CHECK_FALSE(worth_dividing_anew(pairs_touching_from(100, 200), heavy_pairs, 2, begin, other));
+  CHECK(worth_dividing_anew(pairs_touching_from(0, 200), heavy_pairs, 2, begin, other));
+  CHECK(other == batches(pairs_touching_from(0, 200), 2, heavy_pairs));
 }
 
 TEST_CASE("a batch ends at the chunk nearest to its share", "[contact][batches]") {
@@ -99,15 +107,15 @@ TEST_CASE("pairs are divided anew when contacts are elsewhere, and not before", 
       CAPTURE(threads, count);
       const std::vector<BodyPair> in_a_half = pairs_touching_from(count / 2, count);
       const std::vector<std::uint32_t> begin = batches(in_a_half, threads);
-      CHECK_FALSE(worth_dividing_anew(in_a_half, pair_chunk, threads, begin, other));
+      CHECK_FALSE(worth_dividing_anew(in_a_half, plain_pairs, threads, begin, other));
       for (const std::size_t first : {std::size_t{0}, count - count / 8}) {
         const std::vector<BodyPair> elsewhere = pairs_touching_from(first, count);
-        CHECK(worth_dividing_anew(elsewhere, pair_chunk, threads, begin, other));
+        CHECK(worth_dividing_anew(elsewhere, plain_pairs, threads, begin, other));
         CHECK(other == batches(elsewhere, threads));
       }
     }
   }
   const std::vector<BodyPair> few = pairs_touching_from(0, 4 * pair_chunk);
-  CHECK_FALSE(worth_dividing_anew(few, pair_chunk, 2, batches(few, 2), other));
-  CHECK_FALSE(worth_dividing_anew({}, pair_chunk, 2, batches({}, 2), other));
+  CHECK_FALSE(worth_dividing_anew(few, plain_pairs, 2, batches(few, 2), other));
+  CHECK_FALSE(worth_dividing_anew({}, plain_pairs, 2, batches({}, 2), other));
 }
