@@ -162,6 +162,7 @@ class ContactStage {
   static std::uint32_t first_unsound(std::size_t begin, std::span<const std::uint32_t> active,
                                      const Workspace& found);
   ContactTotals totals() const;
+  void bound_capacities();
   template <class Is>
   bool any_chunk(const Wave& wave, const Is& is) const {
     return std::any_of(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(wave.first_chunk),

@@ -25,11 +25,23 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
     slots_.fit_reports(pairs_.empty() ? 0 : pairs_.back().slot_start + pairs_.back().contact_count);
     list_to_shape(model);
     describe_plain_pairs(model);
-    for (BodyPair& pair : pairs_) pair.slot_capacity = pair.contact_count;
+    bound_capacities();
     lay_out_loads(model);
   }
   lay_out_slots();
   if (archive.reading() && !island_.empty()) hold_sleeping_pairs();
+}
+
+/// A pair that is asked about once more, for want of slots, adds to sums after others: capacities go on as
+/// they are. But no damaged state may ask for more than it could hold.
+void ContactStage::bound_capacities() {
+  constexpr std::size_t most_for_pieces = 32;
+  std::size_t asked = 0;
+  for (const BodyPair& pair : pairs_) asked += pair.slot_capacity;
+  const bool sound = asked <= most_for_pieces * (pairs_.size() + piece_pairs_.size());
+  for (BodyPair& pair : pairs_) {
+    if (!sound || pair.slot_capacity < pair.contact_count) pair.slot_capacity = pair.contact_count;
+  }
 }
 
 /// Whether all indices lead into the arrays of this scene, and pairs are what a search makes of them: those

@@ -355,6 +355,27 @@ TEST_CASE("a state whose pairs are none that a search could have made is refused
   CHECK_NOTHROW(take(swollen));
 }
 
+TEST_CASE("a state keeps the slots that pairs have", "[contact][stage]") {
+  WorkingScene text;
+  text.law = "tally";
+  text.interface = R"("normal_stiffness": 1)";
+  text.bodies = box("a", 0, 0, 1, 1) + ", " + box("b", 1, 0, 2, 1);
+  HeldStage stage(text, tally::registry());
+  tally::contacts = 9;
+  stage.evaluate();
+  tally::contacts = 2;
+  stage.evaluate();
+  REQUIRE(stage.pair(0, 1).slot_capacity >= 9);
+  Archive kept;
+  stage.contacts.exchange(kept, stage.model);
+  HeldStage again(text, tally::registry());
+  Archive taken(kept.bytes());
+  again.contacts.exchange(taken, again.model);
+  CHECK(again.pair(0, 1).slot_capacity == stage.pair(0, 1).slot_capacity);
+  CHECK(again.history(0, 1) == stage.history(0, 1));
+  tally::contacts = 1;
+}
+
 TEST_CASE("a look with the former interfaces leaves nothing behind for the step", "[contact][stage]") {
   WorkingScene text;
   text.interface = combed().interface;
