@@ -130,7 +130,7 @@ void register_crowds() {
   }
 }
 
-/// Blocks of some thirty elements each, which touch all around.
+/// Blocks of some thirty elements each, with others near all their sides.
 void register_many_elements() {
   for (const int blocks : {32, 126}) {
     register_case(fmt::format("many_elements/{}/symmetric", blocks),
