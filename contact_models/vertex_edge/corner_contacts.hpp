@@ -75,8 +75,9 @@ class CornerFinder {
     return piece.real(v) && piece.real(before) && dot(piece.tangent(before), piece.tangent(v)) < straight;
   }
 
-  static void stand(const Piece& own, const Piece& other, std::uint32_t v, double bond_reach,
-                    CornerContact contact, std::vector<CornerContact>& found) {
+  [[gnu::always_inline]] static void stand(const Piece& own, const Piece& other, std::uint32_t v,
+                                           double bond_reach, CornerContact contact,
+                                           std::vector<CornerContact>& found) {
     const Point at = own.at(v);
     const Point outward = own.is_strip() ? own.normal(0) : own.tangent(own.previous(v)) - own.tangent(v);
     double nearest = std::numeric_limits<double>::infinity();

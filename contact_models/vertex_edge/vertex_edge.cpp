@@ -58,6 +58,7 @@ class VertexEdge final : public ContactModel {
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto work = std::make_unique<Workspace>();
+    work->reach_of_bonds = reach_of_bonds(batch.interfaces, batch.hold_stick);
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
@@ -80,6 +81,7 @@ class VertexEdge final : public ContactModel {
     std::vector<PiecePairGeometry> pieces;
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
+    double reach_of_bonds = 0;  ///< m
     CornerFinder finder;
   };
 
@@ -136,10 +138,11 @@ class VertexEdge final : public ContactModel {
       const double touching = batch.bonds_form ? 1e-12 * std::min(longest_side(geometry.piece[0]),
                                                                   longest_side(geometry.piece[1]))
                                                : 0.0;
-      const auto bond_reach = [&](std::uint32_t key) {
+      const double bonded = work.reach_of_bonds;
+      const auto bond_reach = [&, bonded, touching](std::uint32_t key) {
+        if (bonded == touching) return touching;  // no need to know who is bonded
         const SpringHistory* old = find_old(work.old, key);
-        if (old != nullptr && old->intact == 1) return reach_of_bonds(batch.interfaces, batch.hold_stick);
-        return touching;
+        return old != nullptr && old->intact == 1 ? bonded : touching;
       };
       work.finder.find(geometry, e, bond_reach, work.found);
     }
