@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <deque>
 
 using namespace talus;
@@ -58,10 +60,33 @@ constexpr const char* lattices = R"({"talus": 1, "gravity": [0, -10],
   "damping": 50,
   "time": {"end": 1}, "output": {"history": 0.01}})";
 
+/// A wall of twelve bricks of many elements: more pairs than one thread has for itself.
+std::string lattice_wall() {
+  std::string bodies =
+      R"({"name": "base", "polygon": [[-1, -1], [6, -1], [6, 0], [-1, 0]], "material": "rock", "fixed": true,
+          "cover": {"model": "block"}})";
+  for (int course = 0; course < 3; ++course) {
+    for (int i = 0; i < 4; ++i) {
+      const double left = i + 0.5 * (course % 2), low = 0.5 * course;
+      bodies += fmt::format(R"(, {{"name": "c{0}b{1}", "material": "rock",
+                                   "polygon": [[{2}, {3}], [{4}, {3}], [{4}, {5}], [{2}, {5}]]}})",
+                            course, i, left, low, left + 1, low + 0.5);
+    }
+  }
+  return fmt::format(R"({{"talus": 1, "gravity": [0, -10],
+    "materials": {{"rock": {{"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25}}}},
+    "cover": {{"model": "hexagonal", "size": 0.4, "angle": 11}}, "contact": {{"model": "overlap_area"}},
+    "interfaces": [{{"between": ["*", "*"], "normal_stiffness": 1e10, "tangential_stiffness": 1e10,
+                    "friction_angle": 30, "normal_damping": 0.3, "tangential_damping": 0.3}}],
+    "bodies": [{}], "damping": 50, "time": {{"end": 1}}, "output": {{"history": 0.01}}}})",
+                     bodies);
+}
+
 Scene scene_of(const Stack& stack, const char* law) {
   std::vector<Override> overrides{
       {"/contact/model", law}, {"/time/safety", "0.2"}, {"/output/history", "0.0005"}};
   if (stack.scene == nullptr) return from_text(lattices, overrides);
+  if (stack.cover == nullptr) return from_text(lattice_wall(), overrides);
   overrides.push_back({"/cover/model", stack.cover});
   return shipped(stack.scene, overrides);
 }
@@ -83,9 +108,9 @@ TEST_CASE("Memory that a library loaded at run time asks for is counted", "[allo
 }
 
 TEST_CASE("Steps ask for no memory, nor does a search for neighbours", "[allocations]") {
-  const Stack stack =
-      GENERATE(Stack{"blocks", "brick_wall", "block"}, Stack{"rigid bodies", "brick_wall", "rigid"},
-               Stack{"bodies of many elements", nullptr, nullptr});
+  const Stack stack = GENERATE(
+      Stack{"blocks", "brick_wall", "block"}, Stack{"rigid bodies", "brick_wall", "rigid"},
+      Stack{"bodies of many elements", nullptr, nullptr}, Stack{"a wall of many elements", "", nullptr});
   const char* law = GENERATE("overlap_area", "vertex_edge", "frictionless");
   const RunSettings settings = GENERATE(RunSettings{1, true}, RunSettings{1, false}, RunSettings{2, true});
   CAPTURE(stack.name, law, settings.threads, settings.neighbour_skin);
