@@ -39,7 +39,8 @@ Observed observe(const Scene& scene, const RunSettings& settings, double warm_up
 }
 
 struct Stack {
-  const char *name, *scene, *cover;
+  std::string name, scene;  ///< a shipped one, or its text
+  std::string cover{};      ///< of a shipped one
 };
 
 /// Two bodies of many elements, one with slivers and a support, and one block; all sides press on sides.
@@ -85,8 +86,7 @@ std::string lattice_wall() {
 Scene scene_of(const Stack& stack, const char* law) {
   std::vector<Override> overrides{
       {"/contact/model", law}, {"/time/safety", "0.2"}, {"/output/history", "0.0005"}};
-  if (stack.scene == nullptr) return from_text(lattices, overrides);
-  if (stack.cover == nullptr) return from_text(lattice_wall(), overrides);
+  if (stack.scene.starts_with("{")) return from_text(stack.scene, overrides);
   overrides.push_back({"/cover/model", stack.cover});
   return shipped(stack.scene, overrides);
 }
@@ -108,9 +108,9 @@ TEST_CASE("Memory that a library loaded at run time asks for is counted", "[allo
 }
 
 TEST_CASE("Steps ask for no memory, nor does a search for neighbours", "[allocations]") {
-  const Stack stack = GENERATE(
-      Stack{"blocks", "brick_wall", "block"}, Stack{"rigid bodies", "brick_wall", "rigid"},
-      Stack{"bodies of many elements", nullptr, nullptr}, Stack{"a wall of many elements", "", nullptr});
+  const Stack stack =
+      GENERATE(Stack{"blocks", "brick_wall", "block"}, Stack{"rigid bodies", "brick_wall", "rigid"},
+               Stack{"bodies of many elements", lattices}, Stack{"a wall of many elements", lattice_wall()});
   const char* law = GENERATE("overlap_area", "vertex_edge", "frictionless");
   const RunSettings settings = GENERATE(RunSettings{1, true}, RunSettings{1, false}, RunSettings{2, true});
   CAPTURE(stack.name, law, settings.threads, settings.neighbour_skin);
