@@ -159,14 +159,14 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
   };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
     const Wave now = wave(number);
-    ask(model, motion, conditions, now, gone, true, close_batch);
+    ask(model, motion, conditions, now, gone, close_batch);
     while (some_short_of_room()) {
       if (const LawFault found = runaway(); !found.found.empty()) {
         fault_ = found;
         return;
       }
       make_room();
-      ask(model, motion, conditions, now, no_way, false, close_batch);
+      ask_again(model, motion, conditions, close_batch);
     }
     if (!loads_.due()) continue;
     const bool finite = loads_.add(model, still_, motion);
@@ -194,14 +194,14 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
     }
   };
   for (std::size_t number = 0; number < loads_.waves(); ++number) {
-    ask(model, motion, conditions, wave(number), way_, true, add_energies);
+    ask(model, motion, conditions, wave(number), way_, add_energies);
     // What a pair without room holds a law need not say: all of the wave once more.
     while (some_short_of_room() && runaway().found.empty()) {
       make_room();
       const Wave now = wave(number);
       std::fill(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.first_chunk),
                 chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.end_chunk), ChunkTotals{});
-      ask(model, motion, conditions, now, way_, true, add_energies);
+      ask(model, motion, conditions, now, way_, add_energies);
     }
   }
   interfaces_.value = interface_values_.data();
@@ -211,51 +211,70 @@ double ContactStage::with_former_interfaces(const Model& model, const MotionStat
   return found.stored + found.slip_loss;
 }
 
-/// Asks the law about pairs of a wave: anew, or once more about some. Calls each(batch, pairs of it that were
-/// asked about, what the law said).
+/// Asks the law about the pairs of a wave whose time has come. Calls each(batch, pairs of it that were asked
+/// about, what the law said).
 template <class Each>
 void ContactStage::ask(const Model& model, const MotionState& motion, const Conditions& conditions,
-                       const Wave& wave, const kernels::Way& gone, bool anew, const Each& each) {
-  const Boundaries boundaries{motion.corners.data(), model.piece_start.data(), model.is_strip.data(),
-                              clear_depth_.data()};
-  if (anew) loads_.begin(wave.number);
+                       const Wave& wave, const kernels::Way& gone, const Each& each) {
+  loads_.begin(wave.number);
+  const bool all = gone.travelled != in_this_step;
   const std::size_t first = batch_of(wave.begin), batches = batch_of(wave.end - 1) + 1 - first;
-  const auto ask_batch = [&](std::size_t in_wave, std::size_t, std::size_t, std::size_t thread) {
-    const std::size_t number = first + in_wave, slot = slots_.first_of(number);
-    if (anew) loads_.prepare(number);
+  workers_.over(batches, 1, [&](std::size_t in_wave, std::size_t, std::size_t, std::size_t thread) {
+    const std::size_t batch = first + in_wave, begin = batch_begin_[batch], end = batch_begin_[batch + 1];
+    loads_.prepare(batch);
     Workspace& found = workspaces_[thread];
-    const std::size_t begin = batch_begin_[number], end = batch_begin_[number + 1];
     // Pairs that were apart need no look until both bodies together may have closed the gap.
     const std::uint32_t count =
         kernels_.choose(ask_again_.data() + begin, approach_.data() + begin,
                         static_cast<std::uint32_t>(end - begin), gone, found.active.data());
-    if (count == 0) return;
-    loads_.expect();
+    if (count > 0) ask_about(model, motion, conditions, batch, count, all, found, each);
+  });
+}
+
+/// Asks once more about those that were short of room, few in all steps but the first.
+template <class Each>
+void ContactStage::ask_again(const Model& model, const MotionState& motion, const Conditions& conditions,
+                             const Each& each) {
+  Workspace& found = workspaces_.front();
+  for (auto at = short_of_room_.begin(); at != short_of_room_.end();) {
+    const std::size_t batch = batch_of(at->pair);
+    std::uint32_t count = 0;
+    for (; at != short_of_room_.end() && at->pair < batch_begin_[batch + 1]; ++at)
+      found.active[count++] = at->pair - batch_begin_[batch];
+    ask_about(model, motion, conditions, batch, count, false, found, each);
+  }
+}
+
+/// Asks about the first `count` of found.active; `all`: they are all of the batch whose time has come.
+template <class Each>
+void ContactStage::ask_about(const Model& model, const MotionState& motion, const Conditions& conditions,
+                             std::size_t batch, std::uint32_t count, bool all, Workspace& found,
+                             const Each& each) {
+  const std::size_t begin = batch_begin_[batch], slot = slots_.first_of(batch);
+  loads_.expect();
 #ifdef TALUS_AUDIT
-    const double poison = std::numeric_limits<double>::quiet_NaN();
-    std::fill(found.history.begin(), found.history.end(), poison);
-    for (std::uint32_t i = 0; i < count; ++i)
-      loads_.fill(model, pairs_[begin + found.active[i]], piece_pairs(), poison);
+  const double poison = std::numeric_limits<double>::quiet_NaN();
+  std::fill(found.history.begin(), found.history.end(), poison);
+  for (std::uint32_t i = 0; i < count; ++i)
+    loads_.fill(model, pairs_[begin + found.active[i]], piece_pairs(), poison);
 #endif
-    const ContactBatch batch{
-        boundaries,
-        interfaces_,
-        pairs_.data() + begin,
-        piece_pairs(),
-        slots_.history(slot),
-        found.active.data(),
-        count,
-        conditions.dt,
-        conditions.hold_stick,
-        conditions.bonds_form,
-        gone.travelled == in_this_step || plans_.empty() ? nullptr : plans_[number].get(),
-        layout_};
-    law_->evaluate(batch, {loads_.corner(), found.history.data(),
-                           conditions.observed && slots_.keeps_reports() ? slots_.reports(slot) : nullptr,
-                           found.reports.data()});
-    each(number, std::span<const std::uint32_t>(found.active).first(count), found);
-  };
-  workers_.over(batches, 1, ask_batch);
+  const ContactBatch asked{
+      {motion.corners.data(), model.piece_start.data(), model.is_strip.data(), clear_depth_.data()},
+      interfaces_,
+      pairs_.data() + begin,
+      piece_pairs(),
+      slots_.history(slot),
+      found.active.data(),
+      count,
+      conditions.dt,
+      conditions.hold_stick,
+      conditions.bonds_form,
+      all && !plans_.empty() ? plans_[batch].get() : nullptr,
+      layout_};
+  law_->evaluate(asked, {loads_.corner(), found.history.data(),
+                         conditions.observed && slots_.keeps_reports() ? slots_.reports(slot) : nullptr,
+                         found.reports.data()});
+  each(batch, std::span<const std::uint32_t>(found.active).first(count), found);
 }
 
 /// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair
@@ -287,10 +306,7 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
     kernels_.close(books, of_chunk.data(), of_chunk.size(), chunk, closed);
     for (const std::uint32_t i : closed.met) loads_.gather(model, pairs_, piece_pairs(), begin + i, true);
     for (const std::uint32_t i : closed.parted) loads_.gather(model, pairs_, piece_pairs(), begin + i, false);
-    for (const std::uint32_t i : closed.short_of_room) {
-      note_short_of_room(begin + i, i, found);
-      ask_again_[begin + i] = in_this_step;
-    }
+    for (const std::uint32_t i : closed.short_of_room) note_short_of_room(begin + i, i, found);
     if (!closed.finite) chunk.unsound = first_unsound(begin, of_chunk, found);
     active = active.subspan(of_chunk.size());
   }

@@ -152,7 +152,13 @@ class ContactStage {
                 const kernels::Way& gone);
   template <class Each>
   void ask(const Model& model, const MotionState& motion, const Conditions& conditions, const Wave& wave,
-           const kernels::Way& gone, bool anew, const Each& each);
+           const kernels::Way& gone, const Each& each);
+  template <class Each>
+  void ask_again(const Model& model, const MotionState& motion, const Conditions& conditions,
+                 const Each& each);
+  template <class Each>
+  void ask_about(const Model& model, const MotionState& motion, const Conditions& conditions,
+                 std::size_t batch, std::uint32_t count, bool all, Workspace& found, const Each& each);
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active, Workspace& found);
   static void note_short_of_room(std::size_t pair, std::uint32_t in_batch, Workspace& found) {
     append_to(found.short_of_room, {static_cast<std::uint32_t>(pair), found.reports[in_batch].contact_count});
