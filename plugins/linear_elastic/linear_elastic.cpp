@@ -56,7 +56,7 @@ class SmallStrainPacks {
       x[i] = trace[i] * (4.0 + trace[i]) + skew[i] * skew[i];  // 4 m² − 4, without the cancellation
       size[i] = 4.0 + x[i];
       share[i] = one_less_inverse_root(x[i]);
-      near[i] = simd::abs(x[i]) <= bound;
+      near[i] = x[i] * x[i] <= bound * bound;  // the square is there: the series has it, too
       all_near = i == 0 ? near[i] : all_near & near[i];
     }
     if (simd::any(!all_near)) [[unlikely]] {

@@ -76,13 +76,13 @@ Scene meshed_square(int cells) {
   return scene;
 }
 
-void measure(benchmark::State& state, Scene scene, double element_steps) {
+void measure(benchmark::State& state, Scene scene, double element_steps, int threads) {
   const Simulation sample(scene, {});
   const double dt = 0.5 * sample.critical_dt();
   const auto elements = static_cast<double>(sample.element_count());
   scene.time.dt = dt;
   scene.output.history = std::ceil(element_steps / elements) * dt;
-  Simulation simulation(scene, {});
+  Simulation simulation(scene, {.threads = threads});
   simulation.advance();
   const std::uint64_t before = simulation.summary().steps;
   for (auto iteration : state) {
@@ -99,11 +99,14 @@ void measure(benchmark::State& state, Scene scene, double element_steps) {
 
 void register_lattices() {
   const auto add_large = [](const char* name, const auto& scene) {
-    benchmark::RegisterBenchmark(
-        name, [scene](benchmark::State& state) { measure(state, scene(), of_large_bodies); })
-        ->Iterations(5)
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    for (const int threads : {1, 2}) {
+      benchmark::RegisterBenchmark(
+          fmt::format("{}/threads:{}", name, threads).c_str(),
+          [scene, threads](benchmark::State& state) { measure(state, scene(), of_large_bodies, threads); })
+          ->Iterations(5)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+    }
   };
   // As many triangles as make 1e6 of them cover the square.
   add_large("lattice/1e6", [] {
@@ -115,7 +118,7 @@ void register_lattices() {
       for (const char* slivers : {"merge", "mass_scale"}) {
         benchmark::RegisterBenchmark(fmt::format("lattice/{}/{}/{}", size, material, slivers).c_str(),
                                      [text = square(size, material, slivers)](benchmark::State& state) {
-                                       measure(state, scene_of_text(text), element_steps_per_iteration);
+                                       measure(state, scene_of_text(text), element_steps_per_iteration, 1);
                                      })
             ->Iterations(5)
             ->UseRealTime()

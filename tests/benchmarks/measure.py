@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Measures everything that docs/benchmarks.md shows and writes its tables anew, between their markers.
 
-  measure.py                                    all but the large cases
-  measure.py --large                            those too: half an hour more
-  measure.py --only peers,machine --column now  some of it; the other figures stay
+  measure.py                                all but the large cases
+  measure.py --large                        those too: half an hour more
+  measure.py --only peers,machine           some of it; the other figures stay
+  measure.py --column "Zen 5"               a column of that name instead of one called "here"
 
-The figures are kept in docs/benchmarks.json, by column: "before" for those of an earlier version beside "now".
+The figures are kept in docs/benchmarks.json, a column for each machine.
 """
 
 import argparse
@@ -25,10 +26,14 @@ from quickest import on_quickest_processor
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGE, STORE = ROOT / "docs/benchmarks.md", ROOT / "docs/benchmarks.json"
-SECTIONS = ("machine", "steps", "threads", "interface", "setup", "programs", "peers")
+SECTIONS = ("machine", "steps", "memory", "continuum", "threads", "interface", "setup", "programs", "peers")
 
-STEPS = "^(brick_wall/411/overlap_area|sliding|pile).*threads:[{}]"
+STEPS = "^(brick_wall/411/overlap_area|sliding|pile|many_elements).*threads:[{}]"
 LARGE_STEPS = "^large/(sliding|pile).*threads:[{}]"
+MEMORY = """sliding/504/block/priority sliding/5000/block/priority pile/5000/block/symmetric
+            large/sliding/50000/block/priority large/sliding/50000/block/symmetric large/sliding/50000/rigid/priority
+            large/pile/50000/block/symmetric large/pile/50000/rigid/symmetric
+            large/pile_shuffled/50000/block/symmetric large/pile/500000/block/symmetric""".split()
 
 
 def google_benchmark(binary, pattern, repetitions):
@@ -101,6 +106,19 @@ def measure_steps(binaries, arguments):
     return found
 
 
+def measure_memory(binaries, arguments):
+    """Each case in a process of its own: what others left free would be counted as room already there."""
+    found = {}
+    for case in MEMORY:
+        if arguments.large or "/500000/" not in case:
+            found |= google_benchmark(binaries / "talus_benchmarks", f"^{case}/threads:1", 1)
+    return found
+
+
+def measure_continuum(binaries, arguments):
+    return google_benchmark_by_threads(binaries, "^(lattice|mesh)/1e6/threads:[{}]", arguments, arguments.repetitions)
+
+
 def measure_interface(binaries, arguments):
     with on_quickest(binaries):
         return google_benchmark(binaries / "talus_benchmarks", "^interface/", arguments.repetitions)
@@ -169,10 +187,10 @@ def counted(value):
 
 
 def columns_of(store, section):
-    """Columns that hold the section, "before" first, and the cases of any of them in the order of the newest."""
-    columns = [column for column in ("before", "now") if section in store.get(column, {})]
+    """Columns that hold the section, and the cases of any of them."""
+    columns = [column for column in store if section in store[column]]
     cases = {}
-    for column in reversed(columns):
+    for column in columns:
         cases |= dict.fromkeys(store[column][section])
     return columns, list(cases)
 
@@ -182,11 +200,10 @@ def get(store, column, section, case, key):
 
 
 def show_machine(store):
-    columns, _ = columns_of(store, "machine")
-    latest = store[columns[-1]]
-    rows = list(latest["machine"].items())
-    rows += [(f"when, load: {column}", store[column]["when"]) for column in columns]
-    return table(["", ""], rows)
+    columns, keys = columns_of(store, "machine")
+    rows = [[key] + [store[column]["machine"].get(key, "–") for column in columns] for key in keys]
+    rows.append(["when, load"] + [store[column]["when"] for column in columns])
+    return table([""] + columns, rows)
 
 
 def natural(name):
@@ -199,18 +216,32 @@ def show_steps(store):
     cases.sort(key=natural)
     keys = ["blocks", "overlapping_pairs", "candidate_pairs"]
     heads = ["case", "blocks", "pairs that overlap", "candidates"]
-    for what in ("ns per block and step", "ns per overlapping pair and step", "bytes per block"):
+    for what in ("ns per block and step", "ns per overlapping pair and step"):
         heads += [f"{what}, {column}" for column in columns]
     rows = []
     for case in cases:
-        newest = next(column for column in reversed(columns) if case in store[column]["steps"])
-        row = [f"`{case}`"] + [counted(get(store, newest, "steps", case, key)) for key in keys]
-        for key in ("ns_per_block_step", "ns_per_contact_step", "bytes_per_block"):
+        latest = next(column for column in reversed(columns) if case in store[column]["steps"])
+        row = [f"`{case}`"] + [counted(get(store, latest, "steps", case, key)) for key in keys]
+        for key in ("ns_per_block_step", "ns_per_contact_step"):
             for column in columns:
                 value = get(store, column, "steps", case, key)
                 row.append(number(value))
         rows.append(row)
     return table(heads, rows)
+
+
+def show_one_figure(store, section, key, what):
+    columns, cases = columns_of(store, section)
+    rows = [[f"`{case}`"] + [number(get(store, c, section, case, key)) for c in columns] for case in cases]
+    return table(["case"] + [f"{what}, {column}" for column in columns], rows)
+
+
+def show_memory(store):
+    return show_one_figure(store, "memory", "bytes_per_block", "bytes per block")
+
+
+def show_continuum(store):
+    return show_one_figure(store, "continuum", "ns_per_element_step", "ns per element and step")
 
 
 def show_threads(store):
@@ -266,15 +297,7 @@ def show_setup(store):
 
 
 def show_programs(store):
-    columns, cases = columns_of(store, "programs")
-    heads = ["case"] + [f"CPU s per simulated s, {column}" for column in columns]
-    return table(
-        heads,
-        [
-            [f"`{case}`"] + [number(get(store, c, "programs", case, "cpu_s_per_simulated_s")) for c in columns]
-            for case in cases
-        ],
-    )
+    return show_one_figure(store, "programs", "cpu_s_per_simulated_s", "CPU s per simulated s")
 
 
 def show_peers(store):
@@ -284,8 +307,8 @@ def show_peers(store):
     heads += [f"ratio to talus, {column}" for column in columns] + ["seen in the last run"]
     rows = []
     for size in sizes:
-        newest = next(column for column in reversed(columns) if size in store[column]["peers"])
-        for name, run in store[newest]["peers"][size].items():
+        latest = next(column for column in reversed(columns) if size in store[column]["peers"])
+        for name, run in store[latest]["peers"][size].items():
             runs = [store[column]["peers"].get(size, {}).get(name, {}) for column in columns]
             row = [size, name, f"{run['step']:.3g}", f"{run['speed']:.4f}"]
             row += [number(each.get("ns")) for each in runs]
@@ -303,6 +326,8 @@ def rewrite(store):
     show = {
         "machine": show_machine,
         "steps": show_steps,
+        "memory": show_memory,
+        "continuum": show_continuum,
         "threads": show_threads,
         "interface": show_interface,
         "setup": show_setup,
@@ -320,7 +345,7 @@ def rewrite(store):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--column", choices=("before", "now"), default="now")
+    parser.add_argument("--column", default="here", help="what the machine is called")
     parser.add_argument("--only", default=",".join(SECTIONS), help="some of " + ", ".join(SECTIONS))
     parser.add_argument("--large", action="store_true", help="also cases that run for minutes")
     parser.add_argument("--repetitions", type=int, default=3, help="of the cases of Google Benchmark")

@@ -106,7 +106,8 @@ double sweep_cells(const LatticeCells& cells, const Law& law) {
   double *const on_bottom_x = cells.bottom_force_x, *const on_bottom_y = cells.bottom_force_y,
                 *const on_top_x = cells.top_force_x, *const on_top_y = cells.top_force_y;
   const RowsAhead ahead = cells.ahead;
-  // What the cells before gave to their right corners, of which the last lies here.
+  // What the cells before gave to their right corners below, and took off those above, of which the last lies
+  // here.
   Pack before_bottom_x = 0.0, before_bottom_y = 0.0, before_top_x = 0.0, before_top_y = 0.0;
   EnergySum energy;
   in_packs(
@@ -144,10 +145,15 @@ double sweep_cells(const LatticeCells& cells, const Law& law) {
           row.store(row.load(to) + (left + simd::shifted(before, right)), to);
           before = right;
         };
+        const auto give_and_take = [&](double* to, Pack left, Pack right, Pack& before)
+            __attribute__((always_inline)) {
+          row.store(row.load(to) + (left - simd::shifted(before, right)), to);
+          before = right;
+        };
         give(on_bottom_x + c, lower.x1 + lower.x2, upper.x2 - lower.x1, before_bottom_x);
         give(on_bottom_y + c, lower.y1 + lower.y2, upper.y2 - lower.y1, before_bottom_y);
-        give(on_top_x + c, upper.x1 - lower.x2, -(upper.x1 + upper.x2), before_top_x);
-        give(on_top_y + c, upper.y1 - lower.y2, -(upper.y1 + upper.y2), before_top_y);
+        give_and_take(on_top_x + c, upper.x1 - lower.x2, upper.x1 + upper.x2, before_top_x);
+        give_and_take(on_top_y + c, upper.y1 - lower.y2, upper.y1 + upper.y2, before_top_y);
         energy.add(k, row.only(stored[0] + stored[1]));
       });
   const auto give_last = [&](double* to, Pack before) {
@@ -157,8 +163,8 @@ double sweep_cells(const LatticeCells& cells, const Law& law) {
   };
   give_last(on_bottom_x, before_bottom_x);
   give_last(on_bottom_y, before_bottom_y);
-  give_last(on_top_x, before_top_x);
-  give_last(on_top_y, before_top_y);
+  give_last(on_top_x, -before_top_x);
+  give_last(on_top_y, -before_top_y);
   return area * energy.total();
 }
 
