@@ -232,6 +232,7 @@ def show_steps(store):
 
 def show_one_figure(store, section, key, what):
     columns, cases = columns_of(store, section)
+    cases.sort(key=natural)
     rows = [[f"`{case}`"] + [number(get(store, c, section, case, key)) for c in columns] for case in cases]
     return table(["case"] + [f"{what}, {column}" for column in columns], rows)
 
