@@ -1,6 +1,7 @@
 #include "conformance/contact_calls.hpp"
 
 #include "conformance/contact_setup.hpp"
+#include "conformance/guarded.hpp"
 
 #include <fmt/format.h>
 
@@ -310,6 +311,14 @@ void check_writes(const Subject& subject, Trial& trial) {
   DrivenLaw rows(*subject.component);
   rows.bodies = saw_teeth(1e-3).bodies;
   expect_within(rows.given(), "two rows of teeth with room for one contact only");
+  const Component& component = *subject.component->component;
+  Guarded<double> values(
+      in_order({component.interface_parameters, component.interface_parameter_count}, lively_interface()));
+  values.surround(mark);
+  trial.feed("the values of an interface between marked zones, to prepare_interface()");
+  driven.law().prepare_interface(values.data());
+  trial.due(values.surrounded_by(mark), "written: past the ends of the values",
+            "writes to the values that the law declares");
 }
 
 void check_reads(const Subject& subject, Trial& trial) {
@@ -330,6 +339,17 @@ void check_reads(const Subject& subject, Trial& trial) {
 }
 
 void check_degenerate(const Subject& subject, Trial& trial) {
+  for (const HeldPair& pair : pairs_without_ties(18)) {
+    trial.feed(fed_pair(pair, 0.5) + ", the first call of a run, no time after the one before: dt = 0");
+    DrivenLaw law(*subject.component);
+    law.bodies = pair.bodies;
+    for (const double dt : {0.0, 1e-4}) {
+      const Evaluation e = law.step(dt);
+      const PairReport& report = e.pairs[0];
+      trial.due(std::isfinite(e.size() + report.stored + report.slip_loss + report.damping_power),
+                "a load or an energy that is no finite number", "finite ones");
+    }
+  }
   const auto evaluate = [&](const std::string& fed, const std::vector<HeldBody>& bodies, bool finite) {
     for (const bool swapped : {false, true}) {
       for (const bool plain : {true, false}) {

@@ -256,12 +256,18 @@ void check_friction_limit(const Subject& subject, Trial& trial) {
       DrivenLaw law(*subject.component, interface);
       law.bodies = flat_on_flat();
       law.bodies[1].motion.velocity = {speed, 0};
+      Evaluation e;
       for (int step = 0; step < 20; ++step) {
-        const Evaluation e = law.step(5e-4);
+        e = law.step(5e-4);
         // Both ends of the block are immersed by 1 mm of 1 m and count with their share.
         trial.at_most(std::abs(e.on(1).x), 1.01 * mu * e.on(1).y + 1e-9 * e.on(1).y + rounded,
                       "force along the base [N/m]");
       }
+      // After 10 mm and more at 1 m/s and more all springs have reached their limit, and what grows with the
+      // speed its end.
+      if (std::abs(speed) < 1) continue;
+      trial.at_most(0.9 * mu * e.on(1).y, std::abs(e.on(1).x) + rounded,
+                    "nine tenths of μ P [N/m], which the force along the base reaches");
     }
     for (const HeldPair& pair : random_pairs(36)) {
       // With the flat as master all loads push one way, and the resultant is their sum.

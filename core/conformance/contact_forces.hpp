@@ -15,6 +15,7 @@ void check_gap(const Subject& subject, Trial& trial);
 void check_tension(const Subject& subject, Trial& trial);
 void check_interfaces(const Subject& subject, Trial& trial);
 void check_friction_limit(const Subject& subject, Trial& trial);
+void check_reports(const Subject& subject, Trial& trial);
 void check_joint(const Subject& subject, Trial& trial);
 void check_strips(const Subject& subject, Trial& trial);
 

@@ -175,6 +175,14 @@ void check_count(const Subject& subject, Trial& trial) {
               "a patch or an element that does not exist, or a ring of less than three corners",
               "numbers that add_patch and add_element gave");
     if (trial.failed()) return;
+    for (const Steadied& one : cover.steadied) {
+      for (const Steadied& other : cover.steadied) {
+        trial.due(std::ranges::find(one.to, other.patch) == one.to.end(),
+                  fmt::format("patch {} that is to follow patch {}, which is steadied itself", one.patch,
+                              other.patch),
+                  "patches that follow free ones");
+      }
+    }
     std::vector<int> used(cover.stars.size(), 0);
     for (const RecordedCover::Element& element : cover.elements) {
       for (const std::uint32_t patch : element.patch) ++used[patch];

@@ -1,5 +1,7 @@
 #include "conformance/driven_law.hpp"
 
+#include "conformance/guarded.hpp"
+
 #include "conformance/boundary_arrays.hpp"
 
 #include <fmt/format.h>
@@ -65,11 +67,11 @@ DrivenLaw::DrivenLaw(const RegisteredComponent& component, const Values& interfa
 }
 
 std::vector<double> DrivenLaw::prepared(const Values& interface) const {
-  std::vector<double> values = in_order(
+  Guarded<double> values(in_order(
       {component_->component->interface_parameters, component_->component->interface_parameter_count},
-      interface);
+      interface));
   law_->prepare_interface(values.data());
-  return values;
+  return {values.begin(), values.end()};
 }
 
 void DrivenLaw::set_interfaces(const std::vector<Values>& rows,

@@ -1,4 +1,5 @@
 #include "conformance/given_elements.hpp"
+#include "conformance/guarded.hpp"
 #include "conformance/material_laws.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,11 @@ void check_material_writes(const Subject& subject, Trial& trial) {
   trial.due(whole.surrounded_by(mark), "writes past the ends of an array",
             "writes to the elements of the batch alone");
   trial.due(!elements.differs_from(before), "a change of what is read-only", "nothing changed");
+  trial.feed("a place for nine numbers between marked zones, to stiffest_tangent()");
+  Guarded<double> tangent(9);
+  tangent.surround(mark);
+  law->stiffest_tangent(tangent.data());
+  trial.due(tangent.surrounded_by(mark), "writes past the nine of the tangent", "writes to these alone");
   trial.feed("elements 50 to 57 of 203");
   TakenResponse part(elements, mark);
   const TakenResponse untouched(elements, mark);

@@ -135,10 +135,18 @@ std::string fault_of(const LaidCover& cover, const GivenShape& given) {
                            cover.elements.size(), vertex.side, sides);
     }
   }
+  std::vector<char> is_steadied(cover.patches.size(), 0);
   for (const LaidCover::Steadied& one : cover.steadied) {
     const auto known = [&](std::uint32_t patch) { return patch < cover.patches.size(); };
     if (!known(one.patch) || !std::all_of(one.to.begin(), one.to.end(), known))
       return "it steadies a patch that does not exist";
+    is_steadied[one.patch] = 1;
+  }
+  for (const LaidCover::Steadied& one : cover.steadied) {
+    for (const std::uint32_t patch : one.to) {
+      if (is_steadied[patch] != 0)
+        return fmt::format("patch {} is to follow patch {}, which is steadied itself", one.patch, patch);
+    }
   }
   return "";
 }

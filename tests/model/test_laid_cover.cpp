@@ -27,7 +27,8 @@ enum class Flaw {
   short_loop,
   unknown_element,
   unknown_side,
-  steadies_nothing
+  steadies_nothing,
+  steadies_itself
 };
 
 Flaw flaw = Flaw::none;  // a builder has no other way to be told
@@ -44,6 +45,11 @@ class FlawedCover final : public CoverBuilder {
       const std::uint32_t to[] = {0, 1, 7};
       const double weights[] = {1, 0, 0};
       sink.steady_patch(3, to, weights, 0);
+    }
+    if (flaw == Flaw::steadies_itself) {
+      const std::uint32_t to[] = {0, 3, 2};
+      const double weights[] = {0, 1, 0};
+      sink.steady_patch(3, to, weights, 1);
     }
     if (flaw == Flaw::no_boundary) return;
     const std::uint32_t corners = flaw == Flaw::short_loop ? 2 : 4;
@@ -112,7 +118,8 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
                 {Flaw::short_loop, "a loop of its boundary has 2 vertices"},
                 {Flaw::unknown_element, "a boundary vertex names element 2 of 2 and side 0 of 4"},
                 {Flaw::unknown_side, "a boundary vertex names element 0 of 2 and side 4 of 4"},
-                {Flaw::steadies_nothing, "it steadies a patch that does not exist"}};
+                {Flaw::steadies_nothing, "it steadies a patch that does not exist"},
+                {Flaw::steadies_itself, "patch 3 is to follow patch 3, which is steadied itself"}};
   for (const auto& fault : faults) {
     CHECK_THAT(refusal_with<PluginError>(fault.flaw),
                Contains("/plugins/libflawed.so: cover 'flawed' does not fit body 'square': ") &&

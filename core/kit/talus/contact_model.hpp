@@ -138,7 +138,7 @@ struct ContactBatch {
   const double* history;        ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
   const std::uint32_t* active;  ///< [active_count] the pairs to evaluate, as indices into `pairs`, rising
   std::uint32_t active_count;
-  double dt;                  ///< s, from t_{n-1} to t_n
+  double dt;                  ///< s, from t_{n-1} to t_n; 0 at the first call of a run
   bool hold_stick;            ///< settling: friction is held stuck, no slip limit applies
   bool bonds_form;            ///< first evaluation and settling: contacts found now are born intact
   BatchPlan* plan = nullptr;  ///< of this batch, for the law to change; or none

@@ -84,6 +84,8 @@ class AreaLaw : public talus::ContactModel {
     return pair.contact_count > 0 ? batch.history[pair.slot_start] : 0;
   }
   virtual bool bears(const Piece& piece, std::uint32_t side) const { return piece.real(side); }
+  virtual double depth(double measured) const { return measured; }
+  virtual double stored(double energy) const { return energy; }
   virtual double squeeze() const { return 0; }  ///< share of the load, along the longest stretch
   virtual double loss(double work, double stored_more) const { return work - stored_more; }
   virtual bool apart(const ContactBatch&, const ContactLoads&, const Seen&, talus::PairReport&) const {
@@ -175,8 +177,8 @@ class AreaLaw : public talus::ContactModel {
                      sink.on_side(piece, side, piece.lever(side, at), -p * n);
                    });
     });
-    report.stored = p * seen.area / 2;
-    report.penetration = seen.area / seen.longest_stretch[seen.longest_stretch[0] > 0 ? 0 : 1];
+    report.stored = stored(p * seen.area / 2);
+    report.penetration = depth(seen.area / seen.longest_stretch[seen.longest_stretch[0] > 0 ? 0 : 1]);
 
     const double load = p * length(seen.outward);
     double force = 0;
