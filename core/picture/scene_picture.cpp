@@ -27,13 +27,14 @@ struct Picture {
   Svg svg;
   std::map<std::string, std::string> legend;  ///< words, colour
 
-  double size_of_body(std::size_t body) const {
-    double low = 1e300, high = -1e300;
+  /// In units of the picture.
+  Spot size_of_body(std::size_t body) const {
+    Spot low{1e300, 1e300}, high{-1e300, -1e300};
     for (const Vec2 vertex : scene.bodies[body].outer.vertices) {
-      low = std::min(low, vertex.x);
-      high = std::max(high, vertex.x);
+      low = {std::min(low.x, vertex.x), std::min(low.y, vertex.y)};
+      high = {std::max(high.x, vertex.x), std::max(high.y, vertex.y)};
     }
-    return (high - low) * view.units_per_metre();
+    return {(high.x - low.x) * view.units_per_metre(), (high.y - low.y) * view.units_per_metre()};
   }
 };
 
@@ -229,10 +230,12 @@ void draw_names(Picture& picture) {
   };
   for (std::size_t i = 0; i < picture.scene.bodies.size(); ++i) {
     const SceneBody& body = picture.scene.bodies[i];
-    if (letter * static_cast<double>(body.name.size()) > picture.size_of_body(i)) continue;
+    const Spot size = picture.size_of_body(i);
+    if (letter * static_cast<double>(body.name.size()) > size.x || size.y < 12) continue;
     if ((many && !body.fixed) || is_monitor(body.name)) continue;
     const Spot at = picture.view.at(place_within(body.outer.vertices));
-    picture.svg.text({at.x, at.y - 12}, body.name, Svg::Anchor::middle, palette::ink, 11);
+    const double above = size.y < 48 ? -4 : 12;  // patches and marks stand in the middle of large ones
+    picture.svg.text({at.x, at.y - above}, body.name, Svg::Anchor::middle, palette::ink, 11);
   }
   for (const Monitor& monitor : picture.scene.monitors) {
     const Spot at = picture.view.at(picture.simulation.body_motion(monitor.body).position);

@@ -64,6 +64,7 @@ class Reduction {
     settled_ = whole.settle(settings_.interrupted);
     warnings_ = whole.summary().warnings;
     warn_of_locking(whole);
+    warn_of_brittle_bonds();
     geometry_ = whole.geometry();
     pieces_.emplace(whole);
   }
@@ -88,6 +89,29 @@ class Reduction {
   }
 
  private:
+  /// Bonds that do not soften are gone before friction has come to its limit: the two are never there
+  /// together, as limit equilibrium has them.
+  void warn_of_brittle_bonds() {
+    if (scene_.contact.component == nullptr) return;
+    const Component& law = *scene_.contact.component->component;
+    const auto value_of = [&](const std::vector<double>& values, std::string_view key) {
+      for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
+        if (key == law.interface_parameters[i].key) return values[i];
+      }
+      return 0.0;
+    };
+    const bool brittle = std::ranges::any_of(scene_.interface_values, [&](const std::vector<double>& values) {
+      return value_of(values, "cohesion") > 0 && value_of(values, "softening_slip") == 0;
+    });
+    if (!brittle) return;
+    warnings_.emplace_back(
+        "cohesion of an interface is lost at once where it breaks, before friction bears its part: the "
+        "factor "
+        "is below that of limit equilibrium; `cohesive_overlap` with a softening_slip of some 1e-3 m lets "
+        "both "
+        "come to their strength");
+  }
+
   void warn_of_locking(const Simulation& whole) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {

@@ -138,7 +138,9 @@ inline constexpr Parameter settle[] = {
            "critical."),
     number("until", "-", not_set, above_zero, 1,
            "Ratio of unbalanced to applied force at which it ends before its duration."),
-    flag("hold_stick", true, "Whether friction is held stuck while it settles."),
+    flag("hold_stick", true,
+         "Whether friction bears whatever it is asked to while "
+         "the scene settles; at t = 0 it is cut to its limit."),
 };
 
 inline constexpr Parameter stage[] = {

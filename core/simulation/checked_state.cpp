@@ -100,14 +100,14 @@ void Simulation::State::check_materials() const {
 
 void Simulation::State::check_step() const {
   if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
-    throw NumericalTrouble(
-        fmt::format("the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
-                    "m/s, {:.3g} m in a "
-                    "step of {:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; the step is {:.2g} "
-                    "of the critical {:.3g} "
-                    "s; take a smaller one, /time/dt below {:.3g} or \"auto\"",
-                    time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
-                    model.smallest_width, plan.dt / critical.dt, critical.dt, allowed_dt()));
+    throw NumericalTrouble(fmt::format(
+        "the step is too large for the speed at t = {:.9g} s: bodies approach at up to {:.6g} "
+        "m/s, {:.3g} m in a "
+        "step of {:.3g} s, more than {:.0f} % of the smallest width {:.3g} m; the step is {:.2g} "
+        "of the critical {:.3g} "
+        "s; take a smaller one, /time/dt below {:.3g} or \"auto\"",
+        time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
+        model.smallest_width, plan.dt / critical.dt, critical.dt, std::min(allowed_dt(), critical.dt)));
   }
   const ContactTotals& totals = contact_totals;
   if (totals.penetration == 0) return;

@@ -135,6 +135,18 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
   const std::vector<std::string> locking = factor_of_safety(yielding, {.highest = 1.1}).warnings;
   REQUIRE(locking.size() == 1);
   CHECK_THAT(locking[0], Catch::Contains("lock where they yield") && Catch::Contains("a"));
+
+  const auto bonded = [&](const char* law, const char* bonds) {
+    return factor_of_safety(from_text(fmt::format(fmt::runtime(rock_scene), law, 30, bonds, flat)),
+                            {.highest = 1.1})
+        .warnings;
+  };
+  for (const char* law : {"vertex_edge", "cohesive_overlap"}) {
+    const std::vector<std::string> brittle = bonded(law, R"(, "cohesion": 1e4)");
+    REQUIRE(brittle.size() == 1);
+    CHECK_THAT(brittle[0], Catch::Contains("lost at once") && Catch::Contains("softening_slip"));
+  }
+  CHECK(bonded("cohesive_overlap", R"(, "cohesion": 1e4, "softening_slip": 1e-3)").empty());
 }
 
 TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {
