@@ -188,6 +188,11 @@ void check_count(const Subject& subject, Trial& trial) {
       for (const std::uint32_t patch : element.patch) ++used[patch];
       trial.due(!element.rings.empty(), "an element without a region", "a region");
     }
+    for (std::uint32_t e = 0; e < cover.elements.size(); ++e) {
+      trial.due(star_area(cover, e) > 0,
+                fmt::format("element {} with patches that run clockwise or lie on a line", e),
+                "three patches, counter-clockwise");
+    }
     const auto idle = static_cast<std::size_t>(std::ranges::count(used, 0));
     trial.due(idle == 0, fmt::format("{} of {} patches that no element uses", idle, used.size()),
               "every patch used: one without mass cannot move");

@@ -103,6 +103,7 @@ TEST_CASE("a law that favours, depends or pulls fails in the one check that is m
                       {"favours_an_axis", "rotation"},
                       {"ignores_friction", "friction"},
                       {"knows_one_interface", "interfaces"},
+                      {"lets_go", "friction"},
                       {"lies_about_gaps", "gap"},
                       {"loses_moment", "balance"},
                       {"pulls", "tension"}});
@@ -151,7 +152,8 @@ TEST_CASE("a cover that is wrong fails in the one check that is meant for it", "
                       {"scales_strain", "count"},
                       {"steadies_askew", "affine"},
                       {"steadies_itself", "count"},
-                      {"torn", "unity"}});
+                      {"torn", "unity"},
+                      {"turns_round", "count"}});
 }
 
 TEST_CASE("a law that does not come back is stopped and fails where it hung",

@@ -84,6 +84,7 @@ class AreaLaw : public talus::ContactModel {
     return pair.contact_count > 0 ? batch.history[pair.slot_start] : 0;
   }
   virtual bool bears(const Piece& piece, std::uint32_t side) const { return piece.real(side); }
+  virtual bool holds_stick(const ContactBatch& batch) const { return batch.hold_stick; }
   virtual double depth(double measured) const { return measured; }
   virtual double stored(double energy) const { return energy; }
   virtual double squeeze() const { return 0; }  ///< share of the load, along the longest stretch
@@ -186,7 +187,7 @@ class AreaLaw : public talus::ContactModel {
       const double slip = slip_velocity(seen) * time_step(batch);
       force = trial(seen, old, slip);
       const double most = limit(seen, force, load);
-      if (!batch.hold_stick) force = std::fmax(-most, std::fmin(most, force));
+      if (!holds_stick(batch)) force = std::fmax(-most, std::fmin(most, force));
       for (int body = 0; body < 2; ++body) {
         sink.at_point(seen.longest[body], seen.longest_side[body], friction_point(seen, body),
                       (body == 1 ? force : -force) * seen.tangent);

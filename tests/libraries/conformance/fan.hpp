@@ -26,7 +26,9 @@ class Fan : public talus::CoverBuilder {
     constexpr std::uint32_t ring[2] = {0, 3};
     for (std::uint32_t i = 0; i < corners; ++i) {
       const std::uint32_t next = i + 1 == corners ? 0 : i + 1;
-      const std::uint32_t patches[3] = {centre, patch[i], next == 0 ? last : patch[next]};
+      const std::uint32_t other = next == 0 ? last : patch[next];
+      const std::uint32_t patches[3] = {centre, clockwise() ? other : patch[i],
+                                        clockwise() ? patch[i] : other};
       const double tip = i == 0 ? first_tip() : 0;
       const double x[3] = {tip * (outline.x[i] + outline.x[next]), outline.x[i], outline.x[next]};
       const double y[3] = {tip * (outline.y[i] + outline.y[next]), outline.y[i], outline.y[next]};
@@ -43,7 +45,8 @@ class Fan : public talus::CoverBuilder {
   virtual std::uint32_t closing_patch(const talus::Region&, std::uint32_t first, talus::CoverSink&) const {
     return first;
   }
-  virtual double first_tip() const { return 0; }  ///< of the first triangle, away from the centroid
+  virtual bool clockwise() const { return false; }  ///< the patches of an element
+  virtual double first_tip() const { return 0; }    ///< of the first triangle, away from the centroid
   virtual std::uint32_t side_at(std::uint32_t corner, std::uint32_t /*corners*/) const { return corner; }
   virtual void finish(std::uint32_t /*centre*/, const std::vector<std::uint32_t>& /*patch*/,
                       talus::CoverSink& /*sink*/) const {}
