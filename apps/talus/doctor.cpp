@@ -46,6 +46,10 @@ void say_when_energy_was_lost(const std::filesystem::path& folder) {
 /// How the run ended, as its record says.
 std::string tell_end(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "run.json";
+  for (const char* of_many : {"compare.json", "study.json"}) {
+    if (std::filesystem::exists(folder / of_many))
+      throw InputError(fmt::format("'{}' holds several runs: name the folder of one in it", folder.string()));
+  }
   try {
     const auto record = nlohmann::json::parse(read_whole_file(file));
     std::string end = record.at("end");

@@ -16,7 +16,7 @@ int info_command(const Words& words) {
   const Usage usage = usage_of_info();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const std::filesystem::path file = checkpoint_file(text_option(*given, "CHECKPOINT"));
+  const std::filesystem::path file = checkpoint_to_go_on_from(text_option(*given, "CHECKPOINT"));
   const Checkpoint checkpoint = read_checkpoint(file);
   fmt::print("{}: a whole checkpoint of {} bytes\n", file.string(), std::filesystem::file_size(file));
   fmt::print("written because {}\n", checkpoint.reason);

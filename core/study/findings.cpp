@@ -61,6 +61,9 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) 
   return across / along;
 }
 
+/// Of errors: what rounding makes in a run says nothing of its steps.
+constexpr double round_off = 1e-11;
+
 /// A step that is stated is rounded to whole steps per output: its order is in those that ran.
 double size_of(const StudyPlan& plan, std::size_t variation, std::size_t number, const StudyRun& run) {
   return plan.pointers[variation] == "/time/dt" ? run.dt : number_of(plan, variation, number);
@@ -73,7 +76,7 @@ std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vec
     ObservedOrder order{{family.variation, {}}, {}};
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
-      if (!findings[run].error || !(*findings[run].error > 0)) continue;
+      if (!findings[run].error || !(*findings[run].error > round_off)) continue;
       order.runs.push_back(run);
       sizes.push_back(std::log(size_of(plan, family.variation, run, runs[run])));
       errors.push_back(std::log(*findings[run].error));

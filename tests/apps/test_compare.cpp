@@ -44,6 +44,9 @@ TEST_CASE("compare runs laws side by side from one geometry at one step", "[apps
       scratch.folder(), {"compare", "small.json", "--vary", "/contact/model=overlap_area,vertex_edge"});
   CHECK(again.code == 2);
   CHECK_THAT(again.err, Contains("--overwrite"));
+  const Call doctor = call_talus(scratch.folder(), {"doctor", "out/small-compare"});
+  CHECK(doctor.code == 2);
+  CHECK_THAT(doctor.err, Contains("holds several runs"));
 }
 
 TEST_CASE("each run keeps its own step where the time settings vary", "[apps][compare]") {

@@ -68,6 +68,9 @@ TEST_CASE("resume goes on with what Ctrl-C broke off, and results are those of o
   call = call_talus(scratch.folder(), {"resume", "broken"});
   CHECK(call.code == 2);
   CHECK_THAT(call.err, Contains("the run in 'broken' is at its end"));
+  call = call_talus(scratch.folder(), {"info", "broken"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("the run in 'broken' is at its end"));
 }
 
 TEST_CASE("kill -9 at any moment leaves a checkpoint that goes on to the same bits", "[apps][resume]") {

@@ -54,6 +54,13 @@ TEST_CASE("The order in the time step is that in the steps that ran", "[study]")
   CHECK(find_out(sample_steps(), runs, sample_column, std::nullopt).orders.empty());
 }
 
+TEST_CASE("What rounding makes tells no order", "[study]") {
+  // Errors of 4e-13, 2e-13 and 1e-13 fall with the step, and yet are none of its.
+  const std::vector<StudyRun> runs = stepped({run_of(8e-13, 1, 10), run_of(4e-13, 2, 20),
+                                              run_of(2e-13, 4, 40), run_of(1e-13, 8, 80), run_of(0, 9, 90)});
+  CHECK(find_out(sample_steps(), runs, sample_column, std::nullopt).orders.empty());
+}
+
 TEST_CASE("A run that is dearer and farther is not on the front", "[study]") {
   const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.2, 2, 20), run_of(0.01, 4, 40),
                                    run_of(0.01, 5, 50), run_of(0, 9, 90)};
