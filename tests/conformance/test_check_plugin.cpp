@@ -51,7 +51,7 @@ void expect_one_failure(const std::vector<Wrong>& wrong) {
 
 }  // namespace
 
-TEST_CASE("the components that ship keep to what is due of them", "[conformance]") {
+TEST_CASE("the components that ship keep to what is due of them", "[conformance][slow_sanitised]") {
   struct Shipped {
     const char* name;
     Names not_claimed;
@@ -166,7 +166,8 @@ TEST_CASE("a law that does not come back is stopped and fails where it hung",
   CHECK_THAT(call.out, Contains("a corner at x = nan m") && Contains("no answer after 6 s"));
 }
 
-TEST_CASE("a report goes to JUnit and to a page, with what was fed, found and due", "[conformance]") {
+TEST_CASE("a report goes to JUnit and to a page, with what was fed, found and due",
+          "[conformance][slow_sanitised]") {
   const Scratch scratch;
   const Call call = call_talus(scratch.folder(), {"check-plugin", spoilt("exceeds_friction"), "--junit",
                                                   "report.xml", "--html", "report.html"});
