@@ -151,13 +151,17 @@ void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos
   for (std::vector<Vec2>& side : geos.voronoi_sides(points, domain[0])) cuts.push_back({std::move(side)});
 }
 
+double lines_of(const JointSet& set, const Box& box) {
+  const Vec2 along = direction_of(set.dip);
+  const Span breadth = span_of(box, {-along.y, along.x});
+  return (breadth.to - breadth.from) / set.spacing + 1;
+}
+
 Density density_of(const JointSet& set, const Box& box) {
-  const Vec2 along = direction_of(set.dip), across{-along.y, along.x};
-  const Span length = span_of(box, along), breadth = span_of(box, across);
-  const double lines = (breadth.to - breadth.from) / set.spacing + 1;
+  const Span length = span_of(box, direction_of(set.dip));
   const double parts =
       set.persistence == 1 ? 1 : (length.to - length.from) * (1 - set.persistence) / set.gap + 1;
-  return {lines * parts, set.persistence / set.spacing};
+  return {lines_of(set, box) * parts, set.persistence / set.spacing};
 }
 
 Density density_of(const Bricks& bricks, const Box& box) {

@@ -52,6 +52,9 @@ void add_bricks(const Bricks& bricks, const Box& box, std::vector<Cut>& cuts);
 void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos& geos,
                  std::vector<Cut>& cuts);
 
+/// How many joints of a set there are over a box, about.
+double lines_of(const JointSet& set, const Box& box);
+
 /// How dense lines are in a domain, to say before they are made how many blocks there will be.
 struct Density {
   double pieces;  ///< lines, or cells

@@ -131,9 +131,27 @@ class Expander {
     return false;
   }
 
+  /// Lines of one set lie beside each other, and how long they take to cut grows with their square.
+  bool check_lines(Section& section, const Joints& joints, const Box& box) {
+    constexpr double most_lines = 1e4;
+    bool good = true;
+    for (std::size_t i = 0; i < joints.sets.size(); ++i) {
+      const double lines = lines_of(joints.sets[i], box);
+      if (lines <= most_lines) continue;
+      good = false;
+      mistakes_.add(
+          below(section.pointer_to("joint_sets"), i) + "/spacing",
+          fmt::format("{} would make about {:.2g} joints of one set: expected {:.0e} at most; is it "
+                      "in metres?",
+                      joints.sets[i].spacing, lines, most_lines));
+    }
+    return good;
+  }
+
   std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
                          double smallest_share) {
-    const double blocks = estimate(joints, box_around(domain.loops[0]));
+    const Box box = box_around(domain.loops[0]);
+    const double blocks = estimate(joints, box);
     if (blocks > most_blocks_) {
       mistakes_.add(section.pointer(),
                     fmt::format("this would make about {:.2g} blocks: expected {:.0e} at most; are the "
@@ -141,6 +159,7 @@ class Expander {
                                 blocks, most_blocks_));
       return {};
     }
+    if (!check_lines(section, joints, box)) return {};
     try {
       const Geos geos;
       CutOrder order = order_of(domain, joints, geos);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace talus {
@@ -96,27 +97,85 @@ double overlap_area(const Loops& first, const Loops& second, const Box& box) {
   return area;
 }
 
+/// What of a line a body takes up, m.
+struct Reach {
+  double low, high;
+};
+
+Reach reach_along(Vec2 direction, const Ring& ring) {
+  Reach reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Vec2 v : ring) {
+    const double at = v.x * direction.x + v.y * direction.y;
+    reach = {std::min(reach.low, at), std::max(reach.high, at)};
+  }
+  return reach;
+}
+
+std::vector<Reach> reaches_along(Vec2 direction, const std::vector<const Loops*>& bodies) {
+  std::vector<Reach> reaches;
+  reaches.reserve(bodies.size());
+  for (const Loops* loops : bodies) reaches.push_back(reach_along(direction, (*loops)[0]));
+  return reaches;
+}
+
+/// Across the longest side.
+Vec2 across(const Ring& ring) {
+  Vec2 longest{};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], side{b.x - a.x, b.y - a.y};
+    if (std::hypot(side.x, side.y) > std::hypot(longest.x, longest.y)) longest = side;
+  }
+  const double length = std::hypot(longest.x, longest.y);
+  return length > 0 ? Vec2{-longest.y / length, longest.x / length} : Vec2{1, 0};
+}
+
+/// Of how many bodies a line meets, the mean.
+double crowding(const std::vector<Reach>& reaches) {
+  double sum = 0;
+  Reach all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Reach& reach : reaches) {
+    sum += reach.high - reach.low;
+    all = {std::min(all.low, reach.low), std::max(all.high, reach.high)};
+  }
+  return sum / (all.high - all.low);
+}
+
+/// Along the line on which fewest bodies lie beside each other: a column upwards, a row sideways, slabs
+/// across.
+std::vector<Reach> least_crowded(const std::vector<const Loops*>& bodies) {
+  std::vector<Vec2> directions{{1, 0}, {0, 1}};
+  constexpr std::size_t samples = 8;
+  for (std::size_t i = 0; i < samples && i < bodies.size(); ++i)
+    directions.push_back(across((*bodies[i * bodies.size() / samples])[0]));
+  std::vector<Reach> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2 direction : directions) {
+    std::vector<Reach> reaches = reaches_along(direction, bodies);
+    const double crowded = crowding(reaches);
+    if (!(crowded < least) && !best.empty()) continue;
+    best = std::move(reaches);
+    least = crowded;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bodies) {
   std::vector<Box> boxes;
   std::vector<double> widths;
-  Vec2 spread{};
   for (const Loops* loops : bodies) {
     boxes.push_back(box_around((*loops)[0]));
     widths.push_back(width(*loops));
-    spread.x = std::max(spread.x, std::abs(boxes.back().low.x - boxes.front().low.x));
-    spread.y = std::max(spread.y, std::abs(boxes.back().low.y - boxes.front().low.y));
   }
-  // A column is swept upwards, a row sideways.
-  const auto along = spread.x >= spread.y ? &Vec2::x : &Vec2::y;
+  const std::vector<Reach> reach = least_crowded(bodies);
   std::vector<std::size_t> order(bodies.size()), active;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return boxes[i].low.*along < boxes[j].low.*along; });
+                   [&](std::size_t i, std::size_t j) { return reach[i].low < reach[j].low; });
   std::vector<BodyOverlap> overlaps;
   for (const std::size_t i : order) {
-    std::erase_if(active, [&](std::size_t j) { return boxes[j].high.*along <= boxes[i].low.*along; });
+    std::erase_if(active, [&](std::size_t j) { return reach[j].high <= reach[i].low; });
     for (const std::size_t j : active) {
       const Box common{
           {std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y)},

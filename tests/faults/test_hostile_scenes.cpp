@@ -50,6 +50,9 @@ const Hostile hostile_scenes[] = {
      [] { return blocks(R"("bricks": {"width": 1e-9, "height": 1e-9})"); }, "are the spacings in metres?"},
     {"joints without a distance", [] { return blocks(R"("joint_sets": [{"dip": 3, "spacing": 1e-300}])"); },
      "are the spacings in metres?"},
+    {"joints a hand apart on a kilometre",
+     [] { return blocks(R"("joint_sets": [{"dip": 90, "spacing": 50}, {"dip": -20, "spacing": 0.1}])"); },
+     "/blocks/0/joint_sets/1/spacing: 0.1 would make about 1.3e+04 joints of one set"},
     {"cells in a sliver",
      [] { return blocks(R"("voronoi": {"count": 100})", "[[0, 10], [1000, 1010], [1000, 1010.00001]]"); },
      "too little to find points within"},
@@ -101,7 +104,8 @@ const Hostile hostile_scenes[] = {
 
 }  // namespace
 
-TEST_CASE("Scenes that ask for everything end in words, in modest memory and time", "[faults]") {
+TEST_CASE("Scenes that ask for everything end in words, in modest memory and time",
+          "[faults][slow_sanitised]") {
   const Scratch scratch;
   for (const Hostile& hostile : hostile_scenes) {
     CAPTURE(hostile.name);

@@ -103,3 +103,14 @@ TEST_CASE("many touching bodies are checked in a moment", "[scene]") {
   for (int i = 0; i < 10000; ++i) bodies.push_back({rectangle(i % 100, i / 100, 1, 1)});
   CHECK(overlaps(bodies).empty());
 }
+
+TEST_CASE("many thin slabs that lean are checked in a moment, and the one that is too high is found",
+          "[scene]") {
+  std::vector<Loops> bodies;
+  for (int i = 0; i < 20000; ++i)
+    bodies.push_back({rectangle(0, 0.001 * (i == 17 ? 17.5 : i), 50, 0.001, 0.5)});
+  const std::vector<BodyOverlap> found = overlaps(bodies);
+  REQUIRE(found.size() == 1);
+  CHECK((found[0].a == 17 && found[0].b == 18));
+  CHECK(found[0].area == Approx(0.025));
+}
