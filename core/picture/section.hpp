@@ -25,7 +25,7 @@ class SectionView {
   void draw_scale(Svg& svg) const;
 
  private:
-  static constexpr double margin = 40;
+  static constexpr double margin = 52;  // arrows of loads find room
 
   Vec2 low_;
   double width_, height_, scale_;
