@@ -33,11 +33,9 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   l.throughput = std::max({l.throughput, initial_, stored + lost, std::abs(l.external_work)});
 }
 
-void LedgerKeeper::lose_kinetic(double rest) {
-  // Half of the work of the present forces lies ahead; it goes with the velocities.
-  ledger_.global_damping_loss += ledger_.kinetic - rest;
-  ledger_.kinetic = rest;
-  damping_ahead_ = work_ahead_ = 0;
+void LedgerKeeper::lose_kinetic(double taken) {
+  ledger_.global_damping_loss += taken;
+  ledger_.kinetic -= taken;
 }
 
 void LedgerKeeper::lose_asleep(double kinetic, double damping_ahead) {

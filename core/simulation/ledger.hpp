@@ -16,9 +16,8 @@ class LedgerKeeper {
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work, double interface_work);
 
-  /// Velocities were just set to zero but for those with a kinetic energy of `rest`, J/m: what went counts as
-  /// taken by global damping.
-  void lose_kinetic(double rest);
+  /// So much kinetic energy, J/m, was just taken, as by global damping.
+  void lose_kinetic(double taken);
 
   /// Bodies went to sleep after book(): their kinetic energy, and what damping was to take from them over the
   /// half of the step that lies ahead.

@@ -65,6 +65,48 @@ bool Relaxation::past_peak(const Damping& how, double kinetic, double gone) {
   return past;
 }
 
+void Relaxation::remember_velocities(const MotionState& motion) {
+  former_motion_ = motion.bodies;
+  former_patch_velocity_ = motion.patch_velocity;
+}
+
+double Relaxation::take_velocities(const Model& model, const StepConditions& conditions,
+                                   MotionState& motion) const {
+  const double share = share_of_after(conditions);
+  double taken = 0;
+  std::vector<Vec2> at_step;
+  // Leaves v₊ − v_n and returns v_n.
+  const auto divide = [share](double before, double& after) {
+    const double middle = before + share * (after - before);
+    after -= middle;
+    return middle;
+  };
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::covered) {
+      const CoverRanges& ranges = model.ranges(body);
+      at_step.clear();
+      for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
+        const Vec2 before = former_patch_velocity_[p];
+        Vec2& after = motion.patch_velocity[p];
+        at_step.push_back({divide(before.x, after.x), divide(before.y, after.y)});
+      }
+      taken += mass_.product(model, b, at_step, at_step) / 2;
+      continue;
+    }
+    const BodyMotion& before = former_motion_[b];
+    BodyMotion &after = motion.bodies[b], middle = after;
+    middle.velocity = {divide(before.velocity.x, after.velocity.x),
+                       divide(before.velocity.y, after.velocity.y)};
+    middle.spin = divide(before.spin, after.spin);
+    middle.rate = {divide(before.rate.xx, after.rate.xx), divide(before.rate.xy, after.rate.xy),
+                   divide(before.rate.yx, after.rate.yx), divide(before.rate.yy, after.rate.yy)};
+    taken += kinetic_energy(body, body.density(), middle, middle);
+  }
+  return taken;
+}
+
 void Relaxation::forget() {
   last_forces_.clear();
   last_kinetic_ = 0;

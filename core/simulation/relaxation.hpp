@@ -4,6 +4,7 @@
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
+#include "simulation/integrator.hpp"
 #include "simulation/patch_mass.hpp"
 
 #include <span>
@@ -21,9 +22,16 @@ class Relaxation {
   /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step.
   double damping(const Damping& how, const Model& model, const MotionState& motion, double dt);
 
-  /// Kinetic damping: whether the kinetic energy, J/m, has passed a peak, so that all velocities are to be
-  /// set to zero. `gone` of it went with bodies that fell asleep since.
+  /// Kinetic damping: whether the kinetic energy, J/m, has passed a peak, so that velocities are to be taken.
+  /// `gone` of it went with bodies that fell asleep since.
   bool past_peak(const Damping& how, double kinetic, double gone = 0);
+
+  /// Kinetic damping: v₋, before the velocity update.
+  void remember_velocities(const MotionState& motion);
+  /// After it takes v_n from all bodies and leaves them what the forces at t_n make of rest, as at the start
+  /// of a run: with v₊ = 0 a mode would go on from further off than it is, by 1/√(1 − (ωΔt/2)²). Returns
+  /// ½ v_n·M v_n, J/m, which is what goes.
+  double take_velocities(const Model& model, const StepConditions& conditions, MotionState& motion) const;
 
   /// The motion so far has nothing to do with what comes.
   void forget();
@@ -41,6 +49,8 @@ class Relaxation {
   std::vector<BodyForce> last_forces_;
   std::vector<Vec2> last_patch_forces_;
   double last_kinetic_ = 0;
+  std::vector<BodyMotion> former_motion_;
+  std::vector<Vec2> former_patch_velocity_;
 };
 
 }  // namespace talus

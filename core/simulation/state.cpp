@@ -134,6 +134,7 @@ void Simulation::State::forces() {
   }
   const double damping = relaxation.damping(how, model, motion, dt_behind);
   const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
+  if (how.kind == Damping::Kind::kinetic) relaxation.remember_velocities(motion);
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
                                                  patch_velocity_at_step);  // Eqs. 18, 23–24
@@ -152,7 +153,7 @@ void Simulation::State::forces() {
     ledger.lose_asleep(taken.kinetic, taken.damping_loss_ahead);
   }
   last_gravity = pull;
-  if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop();
+  if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop(conditions);
   profile.enter(Phase::checks);
   fresh = false;
   to_be_seen = velocities_left = observed;
@@ -370,24 +371,34 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
   if (model.bodies[index].kinematics != Kinematics::rigid) body.spin = 0;
 }
 
-/// All velocities but those that supports drive.
-void Simulation::State::stop() {
-  motion.stop();
-  double driven = 0;
+/// Takes all velocities at t_n but those that supports drive.
+void Simulation::State::stop(const StepConditions& conditions) {
+  double taken = relaxation.take_velocities(model, conditions, motion);
+  std::vector<Vec2> left;
   for (std::uint32_t i = 0; i < model.bodies.size() && !settling; ++i) {
     const Support& support = support_of(stage.supports, i);
     if (!support.any() || !model.moves(i)) continue;
     const Body& body = model.bodies[i];
     const CoverRanges& ranges = model.ranges(body);
     if (model.covered(i)) motion.average(model, i);
+    const BodyMotion begun = motion.bodies[i];
+    const std::span<Vec2> patches(motion.patch_velocity.data() + ranges.patch_begin,
+                                  ranges.patch_end - ranges.patch_begin);
+    left.assign(patches.begin(), patches.end());
     set_rigid_motion(i, {support.x.value_or(0), support.y.value_or(0)}, support.rotation.value_or(0));
-    const BodyMotion& now = motion.bodies[i];
-    const std::span<const Vec2> patches(motion.patch_velocity.data() + ranges.patch_begin,
-                                        ranges.patch_end - ranges.patch_begin);
-    driven += model.covered(i) ? mass.product(model, i, patches, patches) / 2
-                               : kinetic_energy(body, body.density(), now, now);
+    BodyMotion& now = motion.bodies[i];
+    // What was driven from this step on is no free motion.
+    const Vec2 held{support.x ? begun.velocity.x : 0, support.y ? begun.velocity.y : 0};
+    taken -= model.covered(i) ? mass.product(model, i, patches, patches) / 2
+                              : kinetic_energy(body, body.density(), now, now);
+    now.velocity = {now.velocity.x + begun.velocity.x - held.x, now.velocity.y + begun.velocity.y - held.y};
+    now.spin += support.rotation ? 0 : begun.spin;
+    now.rate = {now.rate.xx + begun.rate.xx, now.rate.xy + begun.rate.xy, now.rate.yx + begun.rate.yx,
+                now.rate.yy + begun.rate.yy};
+    for (std::size_t p = 0; p < left.size(); ++p)
+      patches[p] = {patches[p].x + left[p].x - held.x, patches[p].y + left[p].y - held.y};
   }
-  ledger.lose_kinetic(driven);
+  ledger.lose_kinetic(taken);
 }
 
 }  // namespace talus

@@ -138,7 +138,7 @@ struct Simulation::State {
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();
   void set_rigid_motion(std::size_t body, Vec2 velocity, double spin);
-  void stop();
+  void stop(const StepConditions& conditions);
   std::string place(std::uint32_t body) const;
 
   // Between steps; see Simulation::exchange().
