@@ -21,6 +21,7 @@ struct CornerContact {
   double depth;               ///< m, behind the side; negative across an intact bond
   double lever;               ///< foot of the vertex along the side, 0 to 1
   double tributary;           ///< m, length of boundary whose load the vertex carries
+  double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
   double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1
 };
 
@@ -50,7 +51,7 @@ class CornerFinder {
       for (std::uint32_t v = 0; v < own.size(); ++v) {
         if (!is_vertex(own, v)) continue;
         const std::uint32_t key = 2 * (own.first_corner() + v) + body;
-        stand(own, other, v, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 1}, found);
+        stand(own, other, v, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1}, found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -97,10 +98,10 @@ class CornerFinder {
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
-    const double slack = std::min(std::max(contact.depth, bond_reach), flush * edge);
+    contact.slack = std::min(std::max(contact.depth, bond_reach), flush * edge);
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;
-      if (other.depth(k, at) < -slack) return;
+      if (other.depth(k, at) < -contact.slack) return;
     }
     contact.lever = other.lever(contact.side, at);
     contact.tributary = tributary_length(own, other, v, contact.side);
@@ -109,6 +110,7 @@ class CornerFinder {
     found.push_back(contact);
   }
 
+  /// Corners that meet: no further along the sides than they are deep, or than bonds reach that hold both.
   static bool mutual(const PiecePairGeometry& geometry, const CornerContact& p, const CornerContact& q) {
     if (p.vertex_body == q.vertex_body || geometry.piece[0].is_strip() || geometry.piece[1].is_strip())
       return false;
@@ -118,7 +120,7 @@ class CornerFinder {
       const Point apart = geometry.piece[0].at(contact.vertex_body == 0 ? contact.vertex : other.vertex) -
                           geometry.piece[1].at(contact.vertex_body == 1 ? contact.vertex : other.vertex);
       const double along = std::abs(dot(apart, piece.tangent(contact.side)));
-      return end_of_side && along <= std::max(contact.depth, other.depth);
+      return end_of_side && along <= std::max({contact.depth, other.depth, contact.slack, other.slack});
     };
     return ends_at(p, q) && ends_at(q, p);
   }

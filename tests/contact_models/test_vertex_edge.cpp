@@ -57,6 +57,30 @@ TEST_CASE("A bonded contact holds up to its tensile strength and then breaks for
   CHECK(shifted(bench, {0, -2e-5}).on(1).y == Approx(1e9 * 1e-5).epsilon(1e-6));
 }
 
+TEST_CASE("Bonds between blocks of one width are those on a wider base, pulled and sheared",
+          "[vertex_edge]") {
+  for (const double half : {0.5, 2.0}) {
+    INFO("half the width of the base: " << half);
+    LawBench bench("vertex_edge", bonded());
+    bench.bodies = {box(-half, -1, half, 0), box(-0.5, 0, 0.5, 1)};
+    bench.bonds_form = true;
+    bench.step();
+    bench.bonds_form = false;
+    CHECK(shifted(bench, {0, 9.9e-5}).on(1).y == Approx(-1e9 * 9.9e-5).epsilon(1e-9));
+    CHECK(shifted(bench, {0, -1.09e-4}).on(1).y == Approx(1e9 * 1e-5).epsilon(1e-9));
+    // Its corners pass those of the base by more than they are deep, and by more than bonds reach across.
+    double lost = 0, stored = 0;
+    for (int i = 1; i <= 280; ++i) {
+      const Evaluation e = shifted(bench, {1e-6, 0});
+      CHECK(e.on(1).x == Approx(-7e8 * 1e-6 * i).epsilon(1e-3));
+      CHECK(e.on(1).y == Approx(1e4).epsilon(1e-3));
+      lost += e.pairs[0].slip_loss;
+      stored = e.pairs[0].stored;
+    }
+    CHECK(stored + lost == Approx(7e8 * 2.8e-4 * 2.8e-4 / 2).epsilon(5e-3));
+  }
+}
+
 TEST_CASE("While a scene settles a bond holds whatever pulls, and breaks when it is let go",
           "[vertex_edge]") {
   LawBench bench("vertex_edge", bonded());
