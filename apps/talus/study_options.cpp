@@ -23,17 +23,35 @@ namespace {
 
 namespace po = boost::program_options;
 
-/// A column of the scene's monitors; the first speed, or the first of all, if none is named.
+std::string name_of_column(const std::string& column) {
+  return column.substr(0, column.find(" ["));
+}
+
+/// The first speed of a body that moves; or of that the first of all; or the first there is.
+std::string most_telling(const std::vector<std::string>& columns, const Scene& scene) {
+  const auto moves = [&](const std::string& column) {
+    return std::any_of(scene.monitors.begin(), scene.monitors.end(), [&](const Monitor& monitor) {
+      return !scene.bodies[monitor.body].fixed && column.starts_with(monitor.name + ".");
+    });
+  };
+  const auto is_speed = [&](const std::string& column) {
+    return moves(column) && name_of_column(column).ends_with(".speed");
+  };
+  auto found = std::find_if(columns.begin(), columns.end(), is_speed);
+  if (found == columns.end()) found = std::find_if(columns.begin(), columns.end(), moves);
+  return found == columns.end() ? columns[0] : *found;
+}
+
+/// A column of the scene's monitors: the one that is named, if one is.
 std::string column_of(const Usage& usage, const po::variables_map& given, const Scene& scene) {
   const std::vector<std::string> columns = monitor_columns(scene);
   if (columns.empty())
     throw InputError("the scene has no monitors, so there is nothing to measure errors of");
   const std::string wanted = text_option(given, "metric");
+  if (wanted.empty()) return most_telling(columns, scene);
   for (const std::string& column : columns) {
-    const std::string name = column.substr(0, column.find(" ["));
-    if (wanted.empty() ? name.ends_with(".speed") : (column == wanted || name == wanted)) return column;
+    if (column == wanted || name_of_column(column) == wanted) return column;
   }
-  if (wanted.empty()) return columns[0];
   throw UsageError(usage.command, fmt::format("--metric {}: the scene's monitors have '{}'", wanted,
                                               fmt::join(columns, "', '")));
 }
@@ -57,7 +75,7 @@ void add_study_options(Usage& usage) {
       "reference", po::value<std::string>()->value_name("FILE.csv"),
       "curve to measure errors from (default: the run that did the most work)")(
       "metric", po::value<std::string>()->value_name("MONITOR.QUANTITY"),
-      "what errors are of (default: the first speed)")(
+      "what errors are of (default: the first speed of a body that moves)")(
       "out,o", po::value<std::string>()->value_name("DIR"),
       "folder for the results (default: out/<scene name>-study)")(
       "repeat", po::value<int>()->value_name("N")->default_value(1),

@@ -69,10 +69,18 @@ double size_of(const StudyPlan& plan, std::size_t variation, std::size_t number,
   return plan.pointers[variation] == "/time/dt" ? run.dt : number_of(plan, variation, number);
 }
 
+/// Whether it says how finely a run resolves what it computes: errors have an order in nothing else.
+bool is_resolution(const std::string& pointer) {
+  const std::string key = pointer.substr(pointer.rfind('/') + 1);
+  return key == "dt" || key == "safety" || key == "size" || key.ends_with("_stiffness") ||
+         key.ends_with("_spring");
+}
+
 std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs,
                                            const std::vector<StudyFinding>& findings) {
   std::vector<ObservedOrder> orders;
   for (const StudyFamily& family : families(plan, runs)) {
+    if (!is_resolution(plan.pointers[family.variation])) continue;
     ObservedOrder order{{family.variation, {}}, {}};
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
@@ -146,6 +154,11 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
         fmt::format("the reference has no column '{}'; it has '{}'", column, fmt::join(due.names, "', '")));
   }
   const double scale = largest_magnitude(due.values[*due_column]);
+  if (!(scale > 0)) {
+    throw InputError(fmt::format(
+        "'{}' is 0 all along in the reference, so that no error is a share of it; choose another --metric",
+        column));
+  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!finished(runs[i]) || findings.reference == i) continue;
     const auto own = runs[i].history.column(column);
@@ -154,7 +167,7 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     if (!found || !std::isfinite(found->rms)) continue;
     findings.runs[i].rms = found->rms;
     findings.runs[i].largest = found->largest;
-    findings.runs[i].error = scale > 0 ? found->rms / scale : found->rms;
+    findings.runs[i].error = found->rms / scale;
   }
   mark_front(runs, findings.runs);
   findings.orders = observed_orders(plan, runs, findings.runs);

@@ -61,6 +61,20 @@ TEST_CASE("What rounding makes tells no order", "[study]") {
   CHECK(find_out(sample_steps(), runs, sample_column, std::nullopt).orders.empty());
 }
 
+TEST_CASE("There is an order in what resolves, none in what a scene is", "[study]") {
+  const std::vector<StudyRun> runs = stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                                              run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
+  StudyPlan plan = sample_steps();
+  for (const char* resolves : {"/cover/size", "/time/safety", "/interfaces/0/normal_stiffness"}) {
+    plan.pointers[0] = resolves;
+    CHECK(find_out(plan, runs, sample_column, std::nullopt).orders.size() == 1);
+  }
+  for (const char* given : {"/interfaces/0/friction_angle", "/damping", "/gravity/1"}) {
+    plan.pointers[0] = given;
+    CHECK(find_out(plan, runs, sample_column, std::nullopt).orders.empty());
+  }
+}
+
 TEST_CASE("A run that is dearer and farther is not on the front", "[study]") {
   const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.2, 2, 20), run_of(0.01, 4, 40),
                                    run_of(0.01, 5, 50), run_of(0, 9, 90)};
@@ -81,6 +95,10 @@ TEST_CASE("A study can be measured against a curve, and says where it cannot", "
   reference.names = {"other.speed [m/s]"};
   CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
                     Contains("it has 'other.speed [m/s]'"));
+  reference = run_of(0, 0, 0).history;
+  for (double& value : reference.values[0]) value = 0;
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
+                    Contains("is 0 all along in the reference"));
   for (StudyRun& each : runs) each.end = "stopped";
   CHECK_THROWS_AS(find_out(sample_steps(), runs, sample_column, std::nullopt), InputError);
 }
