@@ -9,6 +9,7 @@ namespace talus {
 namespace {
 
 constexpr double too_soft = 0.1, needlessly_stiff = 10;  ///< E/h
+constexpr double rounding = 1e-9;
 
 std::string in_bytes(double bytes) {
   if (bytes < 1e6) return fmt::format("{:.3g} kB", bytes / 1e3);
@@ -41,12 +42,12 @@ void print_stiffness(const Scene& scene, const Preview& foreseen) {
   if (!foreseen.softest) return;
   const StiffnessShare &soft = *foreseen.softest, &stiff = *foreseen.stiffest;
   std::string words = share_text(scene, soft);
-  if (soft.share() < too_soft) {
-    words += fmt::format(": soft, bodies sink into each other rather than deform; 0.1 E/h is {:.3g} Pa/m",
-                         too_soft * soft.young / soft.width);
+  if (soft.share() < too_soft * (1 - rounding)) {
+    words += fmt::format(": soft, bodies sink into each other rather than deform; E/h is {:.3g} Pa/m",
+                         soft.young / soft.width);
   }
   print_row("stiffness", words);
-  if (stiff.share() > needlessly_stiff) {
+  if (stiff.share() > needlessly_stiff * (1 + rounding)) {
     print_row("", fmt::format("{}: stiff, which costs steps; 10 E/h is {:.3g} Pa/m", share_text(scene, stiff),
                               needlessly_stiff * stiff.young / stiff.width));
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <span>
 #include <string_view>
@@ -261,6 +262,32 @@ void warn(Reading& reading, const ContactSection& contact, const std::set<std::s
   }
 }
 
+/// Mohr and Coulomb's line ends at cohesion over tan φ; what laws make of a tensile strength beyond it
+/// differs.
+void warn_of_strength(Reading& reading, const Component& law) {
+  const auto position = [&](std::string_view key) {
+    std::uint32_t i = 0;
+    while (i < law.interface_parameter_count && key != law.interface_parameters[i].key) ++i;
+    return i;
+  };
+  const std::uint32_t angle = position("friction_angle"), cohesion = position("cohesion"),
+                      tensile = position("tensile_strength"), none = law.interface_parameter_count;
+  if (angle == none || cohesion == none || tensile == none) return;
+  constexpr double rounding = 1e-9;
+  for (std::size_t row = 0; row < reading.scene.interface_values.size(); ++row) {
+    const std::vector<double>& values = reading.scene.interface_values[row];
+    if (values.size() != none ||
+        !(values[tensile] * std::tan(values[angle]) > values[cohesion] * (1 + rounding)))
+      continue;
+    reading.scene.warnings.push_back(fmt::format(
+        "/interfaces/{}: a tensile strength of {:.4g} Pa is above cohesion/tan(friction angle), {:.4g} Pa, "
+        "where "
+        "the line of Mohr and Coulomb ends: a law may bear no more than that (cohesive_overlap) or all of it "
+        "(vertex_edge)",
+        row, values[tensile], values[cohesion] / std::tan(values[angle])));
+  }
+}
+
 }  // namespace
 
 void read_interfaces(Reading& reading, Section& root, const ContactSection& contact) {
@@ -282,6 +309,7 @@ void read_interfaces(Reading& reading, Section& root, const ContactSection& cont
   });
   if (written != nullptr) root.resolved["interfaces"] = std::move(resolved);
   warn(reading, contact, unread);
+  if (contact.law.component != nullptr) warn_of_strength(reading, *contact.law.component->component);
   const std::vector<bool> meet = meetings(reading.scene);
   if (std::find(meet.begin(), meet.end(), true) == meet.end()) {
     reading.scene.interface_row.assign(meet.size(), 0);

@@ -162,6 +162,11 @@ void Simulation::State::check_balance() {
 
 void Simulation::State::warn_of_large_step() {
   if (!scene.time.dt) return;
+  if (limit == Limit::output) {
+    summary.warnings.push_back(
+        fmt::format("time.dt of {:.3g} s is longer than the time between outputs: steps are of {:.3g} s",
+                    *scene.time.dt, plan.dt));
+  }
   if (plan.dt > critical.dt) {
     summary.warnings.push_back(
         fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): the run may blow up",

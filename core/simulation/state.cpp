@@ -307,6 +307,7 @@ void Simulation::State::make_plan(double end) {
     throw NumericalTrouble(words);
   }
   const auto steps = static_cast<std::uint64_t>(wanted);
+  if (scene.time.dt && span < dt * (1 - rounding)) limit = Limit::output;
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   summary.dt = std::max(summary.dt, plan.dt);
 }
@@ -317,6 +318,8 @@ std::string Simulation::State::limiter() const {
       return "";
     case Limit::scene:
       return "time.dt of the scene";
+    case Limit::output:
+      return "time between outputs; time.dt of the scene is longer";
     case Limit::speed:
       return "speed: no two bodies may approach by more than a tenth of the smallest width in a step";
     case Limit::critical:

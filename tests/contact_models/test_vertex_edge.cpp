@@ -2,6 +2,7 @@
 #include "contact_models/law_bench.hpp"
 #include "simulation/working_scene.hpp"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -78,6 +79,21 @@ TEST_CASE("Bonds between blocks of one width are those on a wider base, pulled a
       stored = e.pairs[0].stored;
     }
     CHECK(stored + lost == Approx(7e8 * 2.8e-4 * 2.8e-4 / 2).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("A tensile strength beyond the line of Mohr and Coulomb is told", "[vertex_edge]") {
+  for (const auto& [tensile, told] : {std::pair{1.00001e5, true}, {1e5, false}}) {
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.bodies = talus::box("table", -3, -1, 6, 0, R"("fixed": true)") + ", " + talus::box("a", 0, 0, 1, 1);
+    text.interface =
+        fmt::format(R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 45,
+        "normal_damping": 0, "tangential_damping": 0, "cohesion": 1e5, "tensile_strength": {})",
+                    tensile);
+    const std::vector<std::string> warnings = text.read().warnings;
+    CHECK(warnings.size() == (told ? 1 : 0));
+    if (told) CHECK_THAT(warnings.at(0), Catch::Contains("above cohesion/tan(friction angle), 1e+05 Pa"));
   }
 }
 
