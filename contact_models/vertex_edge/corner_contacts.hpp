@@ -29,10 +29,26 @@ struct PiecePairGeometry {
   Piece piece[2];
 };
 
-/// Of the edges that meet in a vertex, the one that lies flatter on a side along `along`.
+/// Cosine of the turn below which two edges count as one straight stretch.
+inline constexpr double straight = 1 - 1e-9;
+
+/// Whether an edge is no more than a corner cut off, or rounding, between two others.
+inline bool is_short(const Piece& piece, std::uint32_t edge) {
+  constexpr double share = 1e-3;
+  const std::uint32_t before = piece.previous(edge), after = piece.next(edge);
+  const auto turns = [&](std::uint32_t other) {
+    return dot(piece.tangent(other), piece.tangent(edge)) < straight;
+  };
+  return piece.length(edge) < share * std::max(piece.length(before), piece.length(after)) && turns(before) &&
+         turns(after);
+}
+
+/// Of the edges that meet in a vertex, the one that lies flatter on a side along `along`; a short one only
+/// beside another.
 inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along) {
   if (own.is_strip()) return 0;
   const std::uint32_t before = own.previous(v);
+  if (is_short(own, before) != is_short(own, v)) return is_short(own, v) ? before : v;
   return dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
 }
 
@@ -65,8 +81,6 @@ class CornerFinder {
  private:
   /// Share of its edges by which a corner may stand past the end of an edge and still be carried by it.
   static constexpr double flush = 0.01;
-  /// Cosine of the turn below which two edges count as one straight stretch.
-  static constexpr double straight = 1 - 1e-9;
 
   /// Whether the boundary turns here: neither the end of a cut nor a joint between collinear edges. A body of
   /// many elements bends at every corner, and each side brings both of its ends.
@@ -94,8 +108,9 @@ class CornerFinder {
       contact.side = k;
       contact.depth = depth;
     }
-    const double edge = own.is_strip() ? own.length(0) : std::min(own.length(v), own.length(own.previous(v)));
-    if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
+    const double edge = shorter_edge(own, v);
+    // Beyond its own edges, or the width of its piece, a vertex sees the far side.
+    if (!(nearest <= edge) && (own.is_strip() || !(nearest <= width(own)))) return;
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
     contact.slack = std::min(std::max(contact.depth, bond_reach), flush * edge);
@@ -110,19 +125,33 @@ class CornerFinder {
     found.push_back(contact);
   }
 
-  /// Corners that meet: no further along the sides than they are deep, or than bonds reach that hold both.
+  /// Corners that meet: one is past the end of its side where the other is, so that it stands there by its
+  /// slack alone; or they are no further along the sides than they are deep, or than bonds reach that hold
+  /// both.
   static bool mutual(const PiecePairGeometry& geometry, const CornerContact& p, const CornerContact& q) {
     if (p.vertex_body == q.vertex_body || geometry.piece[0].is_strip() || geometry.piece[1].is_strip())
       return false;
-    const auto ends_at = [&](const CornerContact& contact, const CornerContact& other) {
+    const auto at_start = [&](const CornerContact& contact, const CornerContact& other) {
+      return contact.side == other.vertex;
+    };
+    const auto at_end = [&](const CornerContact& contact, const CornerContact& other) {
+      return geometry.piece[1 - contact.vertex_body].next(contact.side) == other.vertex;
+    };
+    const auto past = [&](const CornerContact& contact, const CornerContact& other) {
+      return (contact.lever < 0 && at_start(contact, other)) || (contact.lever > 1 && at_end(contact, other));
+    };
+    const auto near = [&](const CornerContact& contact, const CornerContact& other) {
       const Piece& piece = geometry.piece[1 - contact.vertex_body];
-      const bool end_of_side = contact.side == other.vertex || piece.next(contact.side) == other.vertex;
       const Point apart = geometry.piece[0].at(contact.vertex_body == 0 ? contact.vertex : other.vertex) -
                           geometry.piece[1].at(contact.vertex_body == 1 ? contact.vertex : other.vertex);
       const double along = std::abs(dot(apart, piece.tangent(contact.side)));
-      return end_of_side && along <= std::max({contact.depth, other.depth, contact.slack, other.slack});
+      return along <= std::max({contact.depth, other.depth, contact.slack, other.slack});
     };
-    return ends_at(p, q) && ends_at(q, p);
+    const auto ends_at = [&](const CornerContact& contact, const CornerContact& other) {
+      return at_start(contact, other) || at_end(contact, other);
+    };
+    if (!ends_at(p, q) || !ends_at(q, p)) return false;
+    return past(p, q) || past(q, p) || (near(p, q) && near(q, p));
   }
 
   /// Between a body of many elements and one piece both the ends of a side and the corners above it bear,
@@ -145,6 +174,32 @@ class CornerFinder {
     }
   }
 
+  /// m, of the edges that meet in a vertex, each with what lies straight beyond it; short ones left out.
+  static double shorter_edge(const Piece& own, std::uint32_t v) {
+    if (own.is_strip()) return own.length(0);
+    std::uint32_t before = own.previous(v), after = v;
+    if (is_short(own, before)) before = own.previous(before);
+    if (is_short(own, after)) after = own.next(after);
+    const auto length = [&](std::uint32_t edge) {
+      const auto [low, high] = straight_run(own, edge);
+      return high - low;
+    };
+    return std::min(length(before), length(after));
+  }
+
+  /// m, the least distance of two parallel lines with the piece between them.
+  static double width(const Piece& piece) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = 0; k < piece.size(); ++k) {
+      if (!(piece.length(k) > 0)) continue;
+      double deepest = 0;
+      for (std::uint32_t j = 0; j < piece.size(); ++j)
+        deepest = std::max(deepest, piece.depth(k, piece.at(j)));
+      least = std::min(least, deepest);
+    }
+    return least;
+  }
+
   /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
   /// of a flat contact carry α_N L together.
   static double tributary_length(const Piece& own, const Piece& other, std::uint32_t v, std::uint32_t side) {
@@ -152,13 +207,14 @@ class CornerFinder {
     // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
     if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
     const std::uint32_t edge = flatter_edge(own, v, along);
-    const double start = dot(along, own.at(edge) - other.at(side));
-    const double end = dot(along, own.at(own.next(edge)) - other.at(side));
+    const auto [own_low, own_high] = straight_run(own, edge);
+    const double start = dot(along, own.at(edge) + own_low * own.tangent(edge) - other.at(side));
+    const double end = dot(along, own.at(edge) + own_high * own.tangent(edge) - other.at(side));
     const auto [low, high] = straight_run(other, side);
     const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
     // A side that stands upright on the other, at the end of a base, carries nothing there.
     if (own.is_strip()) return std::max(shadow, 0.0) / 2;
-    return std::max(shadow / 2, least_tributary(own.length(edge), high - low));
+    return std::max(shadow / 2, least_tributary(own_high - own_low, high - low));
   }
 
   /// A twentieth of the shorter edge: for a corner that meets a corner, or comes alone.

@@ -14,8 +14,8 @@ namespace {
 // Shares of the domain's size.
 constexpr double reach = 1e-8;                // by which ends of lines are lengthened
 constexpr double thinnest_of_size = 1e-7;     // width below which a block is a sliver, well above the reach
-constexpr double rounding = 1e-12;            // what crossings may lie off the lines that they are on
 constexpr double grids[] = {0, 1e-10, 1e-9};  // that vertices are moved to, the first that does
+constexpr double idle = 1e-10;                // off a straight side that a vertex is left out of
 constexpr double hairline = 1e-11;            // width of a face that rounding alone made
 
 // Share of the square around the domain by which faces may miss its area: less than any block that is none.
@@ -101,7 +101,7 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
   const double size = box.size();
   const double farthest =
       std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-  const double tolerance = rounding * size + 0x1p-50 * farthest;
+  const double tolerance = idle * size + 0x1p-50 * farthest;
   std::vector<Block> faces = faces_of(order, size, geos);
   sort_blocks(faces, 1e-9 * size);
   double sum = 0;

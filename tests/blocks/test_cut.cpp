@@ -94,6 +94,16 @@ TEST_CASE("a joint that ends in the rock does not cut, one that ends on another 
   CHECK(three[1].outer.vertices.size() == 4);  // the end of the other joint is no corner of it
 }
 
+TEST_CASE("joints that meet corners of a domain written with nine digits make no edges of rounding",
+          "[blocks]") {
+  // The corner (0, 0) lies on a joint of either set; the others are 1e-10 m and less off theirs.
+  const auto bodies = made(R"("joint_sets": [{"dip": 25, "spacing": 1.5}, {"dip": -65, "spacing": 3}])",
+                           "[[0, 0], [16.313540167, 7.607128711], [15.045685381, 10.326052072], "
+                           "[-1.267854785, 2.718923361]]");
+  CHECK(bodies.size() == 12);
+  for (const SceneBody& body : bodies) CHECK(body.outer.vertices.size() == 4);
+}
+
 TEST_CASE("a closed joint leaves a block with a hole, and holes of the domain stay open", "[blocks]") {
   const auto bodies =
       made(R"("joints": [{"points": [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6], [0.4, 0.4]]}])");

@@ -82,6 +82,34 @@ TEST_CASE("Bonds between blocks of one width are those on a wider base, pulled a
   }
 }
 
+TEST_CASE("Points along a base, and corners cut off, bear no less than a base without", "[vertex_edge]") {
+  const auto load_on = [](std::vector<Vec2> block, double depth) {
+    for (Vec2& corner : block) corner.y -= depth;
+    LawBench bench("vertex_edge");
+    bench.bodies = {box(-2, -1, 4, 0), conformance::held(block)};
+    return bench.look().on(1).y;
+  };
+  const double depth = 1e-3, due = 1e9 * 3 * depth;
+  for (const double at : {1e-8, 1e-5, 1e-3, 0.01, 0.1}) {
+    INFO(at << " m");
+    CHECK(load_on({{0, 0}, {at, 0}, {3, 0}, {3, 1.5}, {0, 1.5}}, depth) == Approx(due).epsilon(1e-9));
+    if (at > depth) continue;
+    // The corner above the one on the base bears the least that any does.
+    CHECK(load_on({{0, at}, {at, 0}, {3, 0}, {3, 1.5}, {0, 1.5}}, depth) == Approx(due).epsilon(0.03));
+    CHECK(load_on({{0, 0}, {3, 0}, {3, 1.5}, {0, 1.5}, {0, at}}, depth) == Approx(due).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("A toe passes the corner that it stands at without a jump", "[vertex_edge]") {
+  // Its corner stands past the end of a face until it is further from the next one than it is deep.
+  LawBench bench("vertex_edge");
+  bench.bodies = {conformance::held({{-2, -1}, {1, -1}, {0, 0}, {-2, 0}}), box(-1, -1e-4, 2e-9, 1 - 1e-4)};
+  for (int i = 0; i < 40; ++i) {
+    const double load = shifted(bench, {5e-6, 0}).on(1).y;
+    CHECK(load == Approx(1e9 * 1e-4).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("A tensile strength beyond the line of Mohr and Coulomb is told", "[vertex_edge]") {
   for (const auto& [tensile, told] : {std::pair{1.00001e5, true}, {1e5, false}}) {
     WorkingScene text;
