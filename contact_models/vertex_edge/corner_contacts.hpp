@@ -108,12 +108,13 @@ class CornerFinder {
       contact.side = k;
       contact.depth = depth;
     }
-    const double edge = shorter_edge(own, v);
-    // Beyond its own edges, or the width of its piece, a vertex sees the far side.
-    if (!(nearest <= edge) && (own.is_strip() || !(nearest <= width(own)))) return;
+    const double sought = std::max(contact.depth, bond_reach);
+    double edge = own.is_strip() ? own.length(0) : std::min(own.length(v), own.length(own.previous(v)));
+    if (nearest > edge || sought > flush * edge) edge = shorter_edge(own, v);  // or it need not be known
+    if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
-    contact.slack = std::min(std::max(contact.depth, bond_reach), flush * edge);
+    contact.slack = std::min(sought, flush * edge);
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;
       if (other.depth(k, at) < -contact.slack) return;
@@ -178,6 +179,12 @@ class CornerFinder {
   static double shorter_edge(const Piece& own, std::uint32_t v) {
     if (own.is_strip()) return own.length(0);
     std::uint32_t before = own.previous(v), after = v;
+    // Mostly the shorter one ends where it is.
+    const bool first = own.length(before) < own.length(after);
+    const std::uint32_t shorter = first ? before : after,
+                        beyond = first ? own.previous(before) : own.next(after);
+    if (!is_short(own, shorter) && !(dot(own.tangent(shorter), own.tangent(beyond)) >= straight))
+      return own.length(shorter);
     if (is_short(own, before)) before = own.previous(before);
     if (is_short(own, after)) after = own.next(after);
     const auto length = [&](std::uint32_t edge) {
@@ -185,19 +192,6 @@ class CornerFinder {
       return high - low;
     };
     return std::min(length(before), length(after));
-  }
-
-  /// m, the least distance of two parallel lines with the piece between them.
-  static double width(const Piece& piece) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t k = 0; k < piece.size(); ++k) {
-      if (!(piece.length(k) > 0)) continue;
-      double deepest = 0;
-      for (std::uint32_t j = 0; j < piece.size(); ++j)
-        deepest = std::max(deepest, piece.depth(k, piece.at(j)));
-      least = std::min(least, deepest);
-    }
-    return least;
   }
 
   /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
