@@ -14,6 +14,7 @@ namespace {
 
 constexpr double chart_width = 720, chart_height = 360;
 constexpr double left = 84, right = 16, top = 34, bottom = 74;  ///< margins
+constexpr double first_legend_row = chart_height - 14, legend_row = 18;
 constexpr std::size_t most_points = 1500;  ///< of a curve: more than a line of print can show
 
 struct Range {
@@ -50,6 +51,19 @@ void draw_curve(Svg& svg, const Curve& curve, Range x, Range y) {
     }
   }
   svg.line(points, stroke);
+}
+
+/// [curve] where its sample begins: as many in a line as there is room for.
+std::vector<Spot> places_in_legend(const std::vector<Curve>& curves) {
+  std::vector<Spot> places;
+  Spot at{left, first_legend_row};
+  for (const Curve& curve : curves) {
+    const double wide = 40 + 7.2 * static_cast<double>(curve.label.size());
+    if (at.x > left && at.x + wide > chart_width) at = {left, at.y + legend_row};
+    places.push_back(at);
+    at.x += wide;
+  }
+  return places;
 }
 
 }  // namespace
@@ -90,7 +104,9 @@ std::string chart_svg(const std::string& title, const std::string& x_label, cons
   y.low -= room;
   y.high += room;
 
-  Svg svg(chart_width, chart_height, title);
+  const std::vector<Spot> legend = places_in_legend(curves);
+  const double height = (legend.empty() ? first_legend_row : legend.back().y) + legend_row - 4;
+  Svg svg(chart_width, height, title);
   svg.text({left, 20}, title, Svg::Anchor::start, palette::ink, 14);
   const std::vector<double> y_ticks = ticks(y.low, y.high), x_ticks = ticks(x.low, x.high);
   for (const double value : y_ticks) {
@@ -111,13 +127,10 @@ std::string chart_svg(const std::string& title, const std::string& x_label, cons
   svg.text({(left + chart_width - right) / 2, chart_height - bottom + 37}, x_label, Svg::Anchor::middle);
   svg.text({18, (top + chart_height - bottom) / 2}, y_label, Svg::Anchor::middle, palette::ink, 12, -90);
   for (const Curve& curve : curves) draw_curve(svg, curve, x, y);
-  double at = left;
-  for (const Curve& curve : curves) {
-    const double wide = 40 + 7.2 * static_cast<double>(curve.label.size());
-    if (at + wide > chart_width) break;  // the rest would be cut off
-    svg.line({{at, chart_height - 14}, {at + 22, chart_height - 14}}, {colour_of(curve), 2, curve.dashes});
-    svg.text({at + 28, chart_height - 10}, curve.label, Svg::Anchor::start);
-    at += wide;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const Spot at = legend[i];
+    svg.line({at, {at.x + 22, at.y}}, {colour_of(curves[i]), 2, curves[i].dashes});
+    svg.text({at.x + 28, at.y + 4}, curves[i].label, Svg::Anchor::start);
   }
   return svg.done();
 }

@@ -13,7 +13,8 @@ struct Curve {
   static constexpr std::size_t ink_colour = 100;
 };
 
-/// Curves over one axis, as an SVG for a paper: 720 by 360.
+/// Curves over one axis, as an SVG for a paper: 720 by 360, and higher where the legend takes
+/// more than one line.
 std::string chart_svg(const std::string& title, const std::string& x_label, const std::string& y_label,
                       const std::vector<Curve>& curves);
 

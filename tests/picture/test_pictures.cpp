@@ -64,6 +64,14 @@ TEST_CASE("A chart is well-formed, breaks where there is no number, and says wha
              Contains("a &lt; b &amp; c") && Contains("t [s]") && Contains(">one<") && Contains(">two<"));
   CHECK(count(svg, "stroke=\"#0b6bcb\"") == 3);  // two stretches and the legend
   check_xml(chart_svg("nothing", "t [s]", "v", {}));
+  // A legend for all, in as many lines as it takes, and a picture that holds them.
+  const std::string name(40, 'n');
+  std::vector<Curve> many;
+  for (std::size_t i = 0; i < 5; ++i) many.push_back({name + std::to_string(i), {0, 1}, {0, 1}, i, ""});
+  const std::string high = chart_svg("many", "t [s]", "v", many);
+  check_xml(high);
+  for (std::size_t i = 0; i < 5; ++i) CHECK_THAT(high, Contains(name + std::to_string(i)));
+  CHECK_THAT(high, Contains("height=\"432\""));
 }
 
 TEST_CASE("Marks stand over axes by powers of ten and leave out what these cannot show", "[picture]") {

@@ -97,11 +97,20 @@ function addChart(title, unit, curves, choice = null) {
   show(curves);
 }
 
+/** A piece of the line of a curve: of several monitors of a run dashes alone tell which is which. */
+function sample(series, graph) {
+  const dashes = graph.getOption('strokePattern', series.label);
+  return (
+    `<svg class="sample" viewBox="0 0 30 8"><path d="M0 4H30" stroke="${series.color}" stroke-width="2.5"` +
+    `${dashes ? ` stroke-dasharray="${dashes.join(' ')}"` : ''}/></svg>`
+  );
+}
+
 function legendOf(state) {
   const shown = state.series.filter((series) => series.isVisible);
   const words = shown.map(
     (series) =>
-      `<span><i class="swatch" style="background:${series.color}"></i>${series.labelHTML}` +
+      `<span>${sample(series, state.dygraph)}${series.labelHTML}` +
       (state.x === undefined || series.y === undefined || series.y === null
         ? ''
         : ` <b>${onAxis(series.y, state.dygraph.yAxisRange(0), 5)}</b>`) +
