@@ -54,6 +54,7 @@ int report(const UsageError& problem, const Log& log) {
 }
 
 int report(const SceneError& problem, int code, const Log& log) {
+  for (const std::string& words : problem.warnings) log.warning(words);
   for (const Mistake& mistake : problem.mistakes) {
     log.error(log.in_json() ? mistake.message : mistake.text(), {{"file", mistake.file},
                                                                  {"line", mistake.line},

@@ -1,6 +1,7 @@
 #include "blocks/cut.hpp"
 
 #include "blocks/faces.hpp"
+#include "blocks/loose_ends.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +97,7 @@ std::vector<Block> faces_of(const CutOrder& order, double size, const Geos& geos
 
 }  // namespace
 
-std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
+CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const Box box = box_around(order.domain.loops[0]);
   const double size = box.size();
   const double farthest =
@@ -104,11 +105,13 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
   const double tolerance = idle * size + 0x1p-50 * farthest;
   std::vector<Block> faces = faces_of(order, size, geos);
   sort_blocks(faces, 1e-9 * size);
+  CutDomain made{{}, loose_ends(order.cuts, faces, 10 * reach * size)};
   double sum = 0;
   for (const Block& face : faces) sum += face.area;
   const double mean = faces.empty() ? 0 : sum / static_cast<double>(faces.size());
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
-  std::vector<Block> blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
+  std::vector<Block>& blocks = made.blocks;
+  blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
   for (Block& block : blocks) orient(block);
   name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
   for (Block& block : blocks) {
@@ -117,11 +120,11 @@ std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos) {
       throw std::runtime_error("a block loses its shape where vertices all but coincide: move lines apart");
   }
   sort_blocks(blocks, 1e-9 * size);
-  if (order.split_share == 0) return blocks;
+  if (order.split_share == 0) return made;
   split_quadrilaterals(blocks, order.split_share, order.split_seed, smallest);
   for (Block& block : blocks) orient(block);
   sort_blocks(blocks, 1e-9 * size);
-  return blocks;
+  return made;
 }
 
 }  // namespace talus

@@ -26,6 +26,17 @@ struct CutOrder {
   std::uint64_t split_seed = 0;
 };
 
+/// Where a drawn line ends within a block-to-be.
+struct LooseEnd {
+  Vec2 at;
+  double gap;  ///< m, to the nearest line or boundary
+};
+
+struct CutDomain {
+  std::vector<Block> blocks;
+  std::vector<LooseEnd> loose_ends;
+};
+
 /// The blocks into which lines cut the domain. Ends of lines that lead nowhere do not cut; ends that come
 /// within 1e-8 of the domain's size of another line count as meeting it. A block below the smallest area, or
 /// thinner than 1e-7 of the domain's size, joins the neighbour with which it has the longest boundary in
@@ -35,6 +46,6 @@ struct CutOrder {
 /// Sorted by centroid (x, then y), then area; each loop begins at its lowest vertex, of these the leftmost,
 /// and has no vertex within a straight edge. Throws std::runtime_error where the geometry cannot be worked
 /// with.
-std::vector<Block> cut_domain(const CutOrder& order, const Geos& geos);
+CutDomain cut_domain(const CutOrder& order, const Geos& geos);
 
 }  // namespace talus

@@ -174,19 +174,39 @@ Density density_of(const Sites& sites, const Box& box) {
   return {count, 2 * std::sqrt(count / (box.width() * box.height()))};
 }
 
+/// m, of a line within a box (Liang–Barsky).
+double length_within(Vec2 a, Vec2 b, const Box& box) {
+  double from = 0, to = 1;
+  const auto cut = [&](double start, double change, double low, double high) {
+    if (change == 0) {
+      if (start < low || start > high) to = 0;
+      return;
+    }
+    const double at_low = (low - start) / change, at_high = (high - start) / change;
+    from = std::max(from, std::min(at_low, at_high));
+    to = std::min(to, std::max(at_low, at_high));
+  };
+  cut(a.x, b.x - a.x, box.low.x, box.high.x);
+  cut(a.y, b.y - a.y, box.low.y, box.high.y);
+  return std::max(0.0, to - from) * std::hypot(b.x - a.x, b.y - a.y);
+}
+
 Density density_of(const std::vector<Cut>& cuts, const Box& box) {
   Density density{0, 0};
+  double lines = 0;
   for (const Cut& cut : cuts) {
     for (std::size_t i = 1; i < cut.points.size(); ++i) {
-      const Vec2 a = cut.points[i - 1], b = cut.points[i];
-      density.length += std::hypot(b.x - a.x, b.y - a.y);
-      density.pieces += 1;
+      const double length = length_within(cut.points[i - 1], cut.points[i], box);
+      if (length == 0) continue;
+      density.length += length;
+      ++lines;
     }
   }
   const double area = box.width() * box.height();
   density.length /= area;
-  // Lines in all directions cross λ²/π times per area.
-  density.pieces += density.length * density.length * area / std::numbers::pi;
+  // Lines in all directions cross λ²/π times per area, but no two of them more than once.
+  density.pieces =
+      lines + std::min(density.length * density.length * area / std::numbers::pi, lines * (lines - 1) / 2);
   return density;
 }
 

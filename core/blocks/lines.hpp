@@ -12,6 +12,7 @@ namespace talus {
 struct Cut {
   std::vector<Vec2> points;
   std::uint32_t surface = 0;
+  bool drawn = false;  ///< as it is by the user, line by line
 };
 
 /// Parallel joints: number k lies at offset + (k + jitter * (-1 to 1)) * spacing from the line through the

@@ -148,6 +148,18 @@ class Expander {
     return good;
   }
 
+  void warn_of_loose_ends(const Section& section, const std::vector<LooseEnd>& ends) {
+    if (ends.empty()) return;
+    const LooseEnd nearest = *std::min_element(
+        ends.begin(), ends.end(), [](const LooseEnd& p, const LooseEnd& q) { return p.gap < q.gap; });
+    result.warnings.push_back(
+        fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing on; "
+                    "the nearest, at "
+                    "({:.6g}, {:.6g}), is {:.3g} m short of a line or the boundary",
+                    section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", nearest.at.x, nearest.at.y,
+                    nearest.gap));
+  }
+
   std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
                          double smallest_share) {
     const Box box = box_around(domain.loops[0]);
@@ -167,14 +179,15 @@ class Expander {
       order.smallest_share = smallest_share;
       order.split_share = joints.split_share;
       order.split_seed = joints.split_seed;
-      std::vector<Block> made = cut_domain(order, geos);
-      if (made.empty()) {
+      CutDomain made = cut_domain(order, geos);
+      warn_of_loose_ends(section, made.loose_ends);
+      if (made.blocks.empty()) {
         mistakes_.add(
             section.pointer(),
             "no block is left: what there is lies in gaps, or is below the smallest area and has no "
             "neighbour to join");
       }
-      return made;
+      return std::move(made.blocks);
     } catch (const std::runtime_error& failure) {
       mistakes_.add(section.pointer(), fmt::format("the domain could not be cut: {}", failure.what()));
       return {};

@@ -111,7 +111,7 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
                                point.x, point.y, table::largest_coordinate));
       return;
     }
-    joints.cuts.push_back({line.points, joints.number_of(line.layer == "0" ? "" : line.layer)});
+    joints.cuts.push_back({line.points, joints.number_of(line.layer == "0" ? "" : line.layer), true});
   }
   for (const auto& [kind, count] : drawing.passed_over)
     joints.warnings.push_back(fmt::format("{}: {} of the kind {} passed over", file, count, kind));
@@ -161,7 +161,7 @@ Joints read_joints(Section& generator, const std::filesystem::path& folder) {
   std::vector<std::string> surfaces;
   const std::vector<Discontinuity> lines = read_polylines(generator, "joints", surfaces);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    joints.cuts.push_back({lines[i].points, joints.number_of(surfaces[i])});
+    joints.cuts.push_back({lines[i].points, joints.number_of(surfaces[i]), true});
   if (const Json* written = generator.child("bricks")) {
     Section section(written, generator.pointer_to("bricks"), mistakes);
     read_bricks(section, joints);

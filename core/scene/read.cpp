@@ -108,7 +108,9 @@ ReadText read_text(const std::string& text, const std::string& name, Registry& r
   }
   mistakes.move([&](const std::string& pointer) { return expansion.origin_of(pointer); });
   if (mistakes.count() != 0 || !parsed.mistakes.empty()) {
-    throw mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes));
+    SceneError error = mistakes.placed(text, name, options.overrides, std::move(parsed.mistakes));
+    error.warnings = std::move(expansion.warnings);
+    throw error;
   }
   reading.scene.resolved = root.resolved.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   return {std::move(reading.scene), std::move(expansion)};

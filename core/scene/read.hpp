@@ -24,7 +24,8 @@ class SceneError : public std::runtime_error {
  public:
   explicit SceneError(std::vector<Mistake> mistakes, std::size_t more = 0);
   std::vector<Mistake> mistakes;
-  std::size_t more;  ///< that `mistakes` does not list
+  std::size_t more;                   ///< that `mistakes` does not list
+  std::vector<std::string> warnings;  ///< of a drawing, say, that a mistake may come from
 };
 
 /// "--set /pointer=value"; the value is JSON, or a bare word taken as a string.

@@ -172,7 +172,25 @@ TEST_CASE("blocks that are no list of generators are refused in words", "[blocks
 TEST_CASE("joints that cut nothing are told of", "[blocks]") {
   const Scene whole = sample::read(generator_scene(R"("joints": [{"points": [[-1, 0.5], [0.9, 0.5]]}])"));
   CHECK(whole.bodies.size() == 1);
-  REQUIRE(whole.warnings.size() == 1);
-  CHECK_THAT(whole.warnings[0], Contains("'b' stays one block"));
+  REQUIRE(whole.warnings.size() == 2);
+  CHECK_THAT(whole.warnings[0],
+             Contains("1 end of drawn lines within a block") && Contains("at (0.9, 0.5), is 0.1 m short of"));
+  CHECK_THAT(whole.warnings[1], Contains("'b' stays one block"));
   CHECK(sample::read(generator_scene(grid)).warnings.empty());
+  // Of the second line the upper end is just short of the first; what meets a line or the boundary does not
+  // miss it.
+  const Scene three = sample::read(generator_scene(
+      R"("joints": [{"points": [[0, 0.5], [1, 0.5]]}, {"points": [[0.5, 0], [0.5, 0.499]]},
+                    {"points": [[0.25, 0.5], [0.25, 1]]}])"));
+  CHECK(three.bodies.size() == 3);
+  REQUIRE(three.warnings.size() == 1);
+  CHECK_THAT(three.warnings[0], Contains("at (0.5, 0.499), is 0.001 m short of"));
+  // Beside a mistake, too, which may come from it.
+  try {
+    sample::read(
+        with(generator_scene(R"("joints": [{"points": [[-1, 0.5], [0.9, 0.5]]}])"), "\"time\"", "\"thyme\""));
+    FAIL("no mistake");
+  } catch (const SceneError& error) {
+    CHECK(error.warnings.size() == 2);
+  }
 }
