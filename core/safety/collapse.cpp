@@ -12,6 +12,8 @@ constexpr double seen = 1e-3;    ///< share of the width
 constexpr double lost = 0.05;    ///< share of the width: whatever stops further on has failed, too
 constexpr double steady = 0.45;  ///< of the way, in the second half of the time: one half at constant speed
 constexpr double kept = 0.9;     ///< of the speed in the middle, at the end
+constexpr double slowing =
+    0.25;  ///< of the way in the second half, and of the speed in the middle at the end
 
 /// Along x and y; turning a body drives its vertices along both.
 std::array<bool, 2> driven_axes(const Scene& scene, std::size_t body) {
@@ -85,10 +87,13 @@ PieceMotions Pieces::motions(const Simulation& simulation) const {
 Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
   const double way = end.moved[piece], share = way / pieces_[piece].width;
   if (share > lost) return Course::failed;
-  const bool goes_on =
-      way - middle.moved[piece] > steady * way && end.speed[piece] > kept * middle.speed[piece];
-  if (!goes_on) return Course::rests;
-  return share > seen ? Course::failed : Course::goes_on;
+  const double lately = way - middle.moved[piece];
+  const bool far = share > seen,
+             goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
+  if (goes_on) return far ? Course::failed : Course::goes_on;
+  // It may come to rest, or slide on at a lower speed than that with which it was let go.
+  const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
+  return slows ? Course::goes_on : Course::rests;
 }
 
 double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {

@@ -33,7 +33,7 @@ class Pieces {
   PieceMotions motions(const Simulation& simulation) const;
 
   /// How a piece fares between the middle and the end of a run: failed, where it came far or goes on and has
-  /// come far enough to tell.
+  /// come far enough to tell; one that slows down goes on, too, until it rests.
   Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const;
 
   /// How many times as long a run would have to be to tell of a piece that goes on as if it always

@@ -193,10 +193,9 @@ TEST_CASE("validate tells stiffness that is out of proportion, covers of many el
   // E/h is 1e9 Pa over the width of a metre.
   const std::string soft = told({rock, "/cover/model=block", "/interfaces/0/normal_stiffness=1e6",
                                  "/settle={\"duration\": 0.1, \"damping\": \"adaptive\"}"});
-  CHECK_THAT(soft,
-             Contains("1e+06 Pa/m of /interfaces/0 is 0.001 E/h of 'block'") &&
-                 Contains("soft, bodies sink into each other rather than deform; E/h is 1e+09 Pa/m") &&
-                 !Contains("which costs steps"));
+  CHECK_THAT(soft, Contains("1e+06 Pa/m of /interfaces/0 is 0.001 E/h of 'block'") &&
+                       Contains("soft, bodies sink into each other rather than deform; E/h is 1e+09 Pa/m") &&
+                       !Contains("which costs steps"));
   CHECK_THAT(soft, Contains("settle") && Contains("0.1 s with adaptive damping") && Contains("to settle") &&
                        Contains("not settled yet"));
   const std::string stiff = told({rock, "/cover/model=block", "/interfaces/0/normal_stiffness=1e12"});
