@@ -33,6 +33,26 @@ void measure_edges(const Scene& scene, Preview& preview) {
   }
 }
 
+/// The thinnest body fixes the step of all.
+void look_for_slivers(const Simulation& simulation, Preview& preview) {
+  constexpr double sliver = 1e-3;  ///< of the width of the body in the middle
+  const Scene& scene = simulation.scene();
+  std::vector<std::pair<double, std::size_t>> widths;
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (!scene.bodies[body].fixed) widths.emplace_back(simulation.body_width(body), body);
+  }
+  std::sort(widths.begin(), widths.end());
+  const double least = widths.empty() ? 0 : sliver * widths[widths.size() / 2].first;
+  const auto count =
+      std::count_if(widths.begin(), widths.end(), [&](const auto& of) { return of.first < least; });
+  if (count == 0) return;
+  preview.warnings.push_back(fmt::format(
+      "{} of {} bodies that move {} thinner than a thousandth of most, '{}' the thinnest with {:.3g} m, and "
+      "make "
+      "steps short: of generated blocks those below /blocks/*/smallest_share join a neighbour",
+      count, widths.size(), count == 1 ? "is" : "are", scene.bodies[widths[0].second].name, widths[0].first));
+}
+
 void look_at_start(const Simulation& simulation, Preview& preview) {
   preview.pairs = simulation.pair_count();
   for (const Contact& contact : simulation.contacts()) {
@@ -100,6 +120,7 @@ Preview preview(Simulation& simulation, double trial_seconds) {
   Preview preview;
   measure_edges(scene, preview);
   compare_stiffness(simulation, preview);
+  look_for_slivers(simulation, preview);
   bool stops = false;
   try {
     simulation.advance();

@@ -42,6 +42,15 @@ void review_motion(const Scene& scene, std::vector<std::string>& raised) {
       "ground");
 }
 
+void review_gravity(const Scene& scene, std::vector<std::string>& raised) {
+  if (scene.gravity.y > 0 && scene.gravity.y > std::abs(scene.gravity.x)) {
+    raised.push_back(
+        fmt::format("gravity points up: [{:.4g}, {:.4g}] m/s2", scene.gravity.x, scene.gravity.y));
+  }
+  if (scene.settle && !moves_something(settings_of(scene)))
+    raised.emplace_back("nothing loads the scene while it settles: there is no gravity and no load");
+}
+
 /// A scene of many bodies that nothing holds: a drawing whose base was forgotten.
 void review_hold(const Scene& scene, std::vector<std::string>& raised) {
   const StageSettings settings = settings_of(scene);
@@ -125,6 +134,7 @@ void review_discontinuities(const Scene& scene, std::vector<std::string>& raised
 std::vector<std::string> review(const Scene& scene, double dt) {
   std::vector<std::string> raised;
   review_motion(scene, raised);
+  review_gravity(scene, raised);
   review_hold(scene, raised);
   review_output(scene, dt, raised);
   review_sleep(scene, raised);

@@ -16,6 +16,8 @@ constexpr double warn_residual = 0.01;  ///< of the energy throughput
 constexpr double lively = 0.4;
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
 constexpr double initial_overlap = 1e-6;
+/// Share of its width that a body moves while it settles only if it was drawn elsewhere than it rests.
+constexpr double far_to_settle = 0.1;
 
 }  // namespace
 
@@ -191,6 +193,26 @@ void Simulation::State::warn_of_initial_overlap() {
 }
 
 /// At output times, once in a run: check_step() knows how deep contact sees half of a body's sides alone.
+/// Displacements count from t = 0: nothing else tells of a block that was drawn in the air.
+void Simulation::State::warn_of_settlement() {
+  std::size_t count = 0;
+  std::uint32_t farthest = 0;
+  double most = 0;
+  for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
+    if (!model.moves(i)) continue;
+    const double way = size_of(motion.displacement(model.point(i, {})));
+    if (!(way > far_to_settle * model.bodies[i].width)) continue;
+    ++count;
+    if (way > most) most = way, farthest = i;
+  }
+  if (count == 0) return;
+  summary.warnings.push_back(fmt::format(
+      "while it settled {} moved by more than {} of {}, {}{} by {:.3g} m: displacements count from "
+      "there; was it drawn off what it rests on?",
+      count == 1 ? "a body" : fmt::format("{} bodies", count), far_to_settle,
+      count == 1 ? "its width" : "their widths", count == 1 ? "" : "the most ", place(farthest), most));
+}
+
 void Simulation::State::warn_of_thin_ground() {
   if (model.covered_bodies.empty()) return;
   constexpr const char* met = "is met deeper than contact sees it";

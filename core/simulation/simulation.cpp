@@ -98,6 +98,7 @@ bool Simulation::settle(const Pause& pause) {
         "/settle/until asks: what is left of the motion goes into the run",
         s.scene.settle->duration, s.unbalanced_share, *s.scene.settle->until));
   }
+  s.warn_of_settlement();
   s.settling = false;
   s.settle_over = true;
   s.motion.stop();

@@ -123,6 +123,7 @@ struct Simulation::State {
   void check_balance();
   void warn_of_large_step();
   void warn_of_initial_overlap();
+  void warn_of_settlement();
   void warn_of_thin_ground();
   void bring_rotation_up_to_date();
   double rotation_since_start(std::uint32_t body) const;  ///< rad

@@ -118,6 +118,25 @@ TEST_CASE("A reviewer asks about scenes in which nothing moves or nothing is see
   CHECK(warned(falling, "all bodies fall together"));
 }
 
+TEST_CASE("A reviewer asks about gravity that points up, or that nothing settles under", "[preview]") {
+  WorkingScene text = resting();
+  CHECK_FALSE(warned(text, "gravity points up"));
+  text.gravity = "[0, 10]";
+  CHECK(warned(text, "gravity points up: [0, 10] m/s2"));
+  text.gravity = "[0, 0]";
+  CHECK_FALSE(warned(text, "while it settles"));
+  text.rest = R"("settle": {"duration": 1, "damping": 10},)";
+  CHECK(warned(text, "nothing loads the scene while it settles"));
+}
+
+TEST_CASE("A reviewer asks about bodies that are thin beside the others", "[preview]") {
+  WorkingScene text = resting();
+  text.bodies += "," + box("second", 3, 2, 4, 3) + "," + box("plate", 5, 2, 6, 2.002);
+  CHECK_FALSE(warned(text, "thinner"));
+  text.bodies += "," + box("foil", 7, 2, 8, 2.0005);
+  CHECK(warned(text, "1 of 4 bodies that move is thinner than a thousandth of most, 'foil' the thinnest"));
+}
+
 TEST_CASE("A reviewer asks about intervals that do not fit", "[preview]") {
   WorkingScene text = resting();
   text.output = R"({"history": 1e-6})";

@@ -138,3 +138,18 @@ TEST_CASE("settling goes on however often it is left off", "[simulation][settle]
   while (!often.settle([] { return true; })) REQUIRE(++calls < 100000);
   CHECK(often.state_hash() == whole.state_hash());
 }
+
+TEST_CASE("a body that falls while it settles is told of, one that sinks into place is not",
+          "[simulation][settle]") {
+  for (const auto& [height, told] : {std::pair{0.3, true}, {0.0, false}}) {
+    WorkingScene text = resting(R"({"model": "block"})", "adaptive");
+    text.bodies += ", " + box("b", 1.5, height, 2.5, 1 + height);
+    Simulation simulation(text.read(), {});
+    simulation.settle();
+    const std::vector<std::string> warnings = simulation.summary().warnings;
+    REQUIRE(warnings.size() == (told ? 1 : 0));
+    if (told)
+      CHECK_THAT(warnings[0], Catch::Contains("a body moved by more than 0.1 of its width, 'b' at") &&
+                                  Catch::Contains("by 0.3 m: displacements count from there"));
+  }
+}
