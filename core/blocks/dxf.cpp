@@ -24,6 +24,7 @@ class Parser {
 
   DxfDrawing parse() {
     if (rest_.starts_with("AutoCAD Binary DXF")) fail("this is a binary DXF: save it as text (ASCII)");
+    if (rest_.starts_with("AC10")) fail("this is a DWG: save it as a DXF of text (ASCII)");
     if (!next() || code_ != 0 || value_ != "SECTION")
       fail("this is no DXF: expected it to begin with 0 and SECTION");
     bool has_entities = false;

@@ -33,7 +33,7 @@ bool holds(const Box& box, Vec2 point) {
 }  // namespace
 
 std::vector<LooseEnd> loose_ends(const std::vector<Cut>& cuts, const std::vector<Block>& faces,
-                                 double reach) {
+                                 double margin) {
   std::vector<LooseEnd> found;
   std::vector<Box> boxes;
   for (const Block& face : faces) boxes.push_back(box_around(face.loops[0]));
@@ -51,7 +51,7 @@ std::vector<LooseEnd> loose_ends(const std::vector<Cut>& cuts, const std::vector
     for (const Vec2 end : {first, last}) {
       if (++ends > most_ends) return found;
       const std::optional<double> gap = gap_at(end);
-      if (gap && *gap > reach) found.push_back({end, *gap});
+      if (gap && *gap > margin) found.push_back({end, *gap});
     }
   }
   return found;

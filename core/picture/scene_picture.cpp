@@ -84,7 +84,7 @@ void draw_body(Picture& picture, std::size_t index) {
   const std::string_view fill =
       body.fixed ? palette::fixed : body_colours[body.material % std::size(body_colours)];
   if (!body.fixed) picture.legend[picture.scene.materials[body.material].name] = fill;
-  picture.svg.polygon(rings, fill, {palette::edge, body.fixed ? 0.8 : 1.0});
+  picture.svg.polygon(rings, fill, {palette::edge, body.fixed ? 0.8 : 1.0}, 1, body.name);
 }
 
 /// Elements, where there are several.
@@ -173,12 +173,13 @@ Vec2 typical(const VectorFunction& function, Vec2 at, double end) {
   return largest;
 }
 
-void draw_arrow_to(Picture& picture, Vec2 point, Vec2 direction, const std::string& words) {
+/// As long as its share of the `largest` says.
+void draw_arrow_to(Picture& picture, Vec2 point, Vec2 direction, double largest, const std::string& words) {
   const double size = std::hypot(direction.x, direction.y);
-  if (!(size > 0)) return;
+  if (!(size > 0.05 * largest)) return;
+  const double scale = arrow_length / largest;
   const Spot to = picture.view.at(point);
-  picture.svg.arrow({to.x - direction.x / size * arrow_length, to.y + direction.y / size * arrow_length}, to,
-                    {load_colour, 2});
+  picture.svg.arrow({to.x - direction.x * scale, to.y + direction.y * scale}, to, {load_colour, 2});
   picture.legend[words] = load_colour;
 }
 
@@ -192,22 +193,39 @@ void each_side(const Scene& scene, std::uint32_t body, std::uint32_t surface_cla
   }
 }
 
-void draw_loads(Picture& picture) {
+/// Three arrows along each side, by what acts at their points.
+void draw_surface_loads(Picture& picture) {
   const Scene& scene = picture.scene;
-  for (const PointLoad& load : scene.loads)
-    draw_arrow_to(picture, load.point, typical(load.force, load.point, scene.time.end), "load");
+  struct Pull {
+    Vec2 at, size;  ///< m, Pa
+  };
+  std::vector<Pull> pulls;
+  double largest = 0;
   for (const SurfaceLoad& load : scene.surface_loads) {
     each_side(scene, load.body, load.surface_class, [&](Vec2 p, Vec2 q) {
-      const Vec2 at{(p.x + q.x) / 2, (p.y + q.y) / 2};
-      const double pressure = load.pressure(scene.time.end, at), length = std::hypot(q.x - p.x, q.y - p.y);
-      Vec2 pull = typical(load.traction, at, scene.time.end);
-      pull.x -= pressure * (q.y - p.y) / length;
-      pull.y += pressure * (q.x - p.x) / length;
-      for (const double lever : {0.2, 0.5, 0.8})
-        draw_arrow_to(picture, {p.x + lever * (q.x - p.x), p.y + lever * (q.y - p.y)}, pull,
-                      "traction, pressure");
+      const double length = std::hypot(q.x - p.x, q.y - p.y);
+      for (const double lever : {0.2, 0.5, 0.8}) {
+        const Vec2 at{p.x + lever * (q.x - p.x), p.y + lever * (q.y - p.y)};
+        const double pressure = load.pressure(scene.time.end, at);
+        Vec2 size = typical(load.traction, at, scene.time.end);
+        size.x -= pressure * (q.y - p.y) / length;
+        size.y += pressure * (q.x - p.x) / length;
+        pulls.push_back({at, size});
+        largest = std::max(largest, std::hypot(size.x, size.y));
+      }
     });
   }
+  const std::string words = fmt::format("traction, pressure, the longest {:.3g} Pa", largest);
+  for (const Pull& pull : pulls) draw_arrow_to(picture, pull.at, pull.size, largest, words);
+}
+
+void draw_loads(Picture& picture) {
+  const Scene& scene = picture.scene;
+  for (const PointLoad& load : scene.loads) {
+    const Vec2 force = typical(load.force, load.point, scene.time.end);
+    draw_arrow_to(picture, load.point, force, std::hypot(force.x, force.y), "load");
+  }
+  draw_surface_loads(picture);
   const auto rim = [&](std::uint32_t body, std::uint32_t surface_class, const char* words,
                        std::string_view colour) {
     each_side(scene, body, surface_class, [&](Vec2 p, Vec2 q) {

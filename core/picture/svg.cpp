@@ -34,7 +34,7 @@ Svg::Svg(double width, double height, std::string_view title) {
 }
 
 void Svg::polygon(const std::vector<std::vector<Spot>>& rings, std::string_view fill, const Stroke& stroke,
-                  double opacity) {
+                  double opacity, std::string_view words) {
   text_ += "<path d=\"";
   for (const std::vector<Spot>& ring : rings) {
     append_points(text_, ring);
@@ -43,7 +43,7 @@ void Svg::polygon(const std::vector<std::vector<Spot>>& rings, std::string_view 
   text_ += fmt::format("\" fill=\"{}\" fill-rule=\"evenodd\" stroke-linejoin=\"round\"{}", fill,
                        stroke_text(stroke));
   if (opacity < 1) text_ += fmt::format(" fill-opacity=\"{:.3g}\"", opacity);
-  text_ += "/>\n";
+  text_ += words.empty() ? std::string("/>\n") : fmt::format("><title>{}</title></path>\n", escaped(words));
 }
 
 void Svg::line(const std::vector<Spot>& points, const Stroke& stroke) {

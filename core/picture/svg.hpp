@@ -24,11 +24,12 @@ class Svg {
 
   enum class Anchor { start, middle, end };
 
+  /// `words` are what a browser shows where the pointer rests on it.
   void polygon(const std::vector<std::vector<Spot>>& rings, std::string_view fill, const Stroke& stroke,
-               double opacity = 1);
+               double opacity = 1, std::string_view words = "");
   void line(const std::vector<Spot>& points, const Stroke& stroke);
   void arrow(Spot from, Spot to, const Stroke& stroke);
-  /// `words` are what a browser shows where the pointer rests on it.
+  /// `words` as of polygon().
   void circle(Spot centre, double radius, std::string_view fill, const Stroke& stroke = {},
               std::string_view words = "");
   void text(Spot at, std::string_view words, Anchor anchor, std::string_view colour = "#16202a",

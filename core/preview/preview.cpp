@@ -47,9 +47,8 @@ void look_for_slivers(const Simulation& simulation, Preview& preview) {
       std::count_if(widths.begin(), widths.end(), [&](const auto& of) { return of.first < least; });
   if (count == 0) return;
   preview.warnings.push_back(fmt::format(
-      "{} of {} bodies that move {} thinner than a thousandth of most, '{}' the thinnest with {:.3g} m, and "
-      "make "
-      "steps short: of generated blocks those below /blocks/*/smallest_share join a neighbour",
+      "{} of {} bodies that move {} thinner than a thousandth of most, '{}' the thinnest with {:.3g} m, "
+      "and make steps short: of generated blocks those below /blocks/*/smallest_share join a neighbour",
       count, widths.size(), count == 1 ? "is" : "are", scene.bodies[widths[0].second].name, widths[0].first));
 }
 

@@ -8,12 +8,11 @@
 namespace talus {
 namespace {
 
-constexpr double seen = 1e-3;    ///< share of the width
-constexpr double lost = 0.05;    ///< share of the width: whatever stops further on has failed, too
-constexpr double steady = 0.45;  ///< of the way, in the second half of the time: one half at constant speed
-constexpr double kept = 0.9;     ///< of the speed in the middle, at the end
-constexpr double slowing =
-    0.25;  ///< of the way in the second half, and of the speed in the middle at the end
+constexpr double seen = 1e-3;     ///< share of the width
+constexpr double lost = 0.05;     ///< share of the width: whatever stops further on has failed, too
+constexpr double steady = 0.45;   ///< of the way, in the second half of the time: one half at constant speed
+constexpr double kept = 0.9;      ///< of the speed in the middle, at the end
+constexpr double slowing = 0.25;  ///< of the way, and of that speed: slower, but not at rest
 
 /// Along x and y; turning a body drives its vertices along both.
 std::array<bool, 2> driven_axes(const Scene& scene, std::size_t body) {

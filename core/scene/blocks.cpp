@@ -153,9 +153,8 @@ class Expander {
     const LooseEnd nearest = *std::min_element(
         ends.begin(), ends.end(), [](const LooseEnd& p, const LooseEnd& q) { return p.gap < q.gap; });
     result.warnings.push_back(
-        fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing on; "
-                    "the nearest, at "
-                    "({:.6g}, {:.6g}), is {:.3g} m short of a line or the boundary",
+        fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing "
+                    "on; the nearest, at ({:.6g}, {:.6g}), is {:.3g} m short of a line or the boundary",
                     section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", nearest.at.x, nearest.at.y,
                     nearest.gap));
   }

@@ -281,9 +281,8 @@ void warn_of_strength(Reading& reading, const Component& law) {
       continue;
     reading.scene.warnings.push_back(fmt::format(
         "/interfaces/{}: a tensile strength of {:.4g} Pa is above cohesion/tan(friction angle), {:.4g} Pa, "
-        "where "
-        "the line of Mohr and Coulomb ends: a law may bear no more than that (cohesive_overlap) or all of it "
-        "(vertex_edge)",
+        "where the line of Mohr and Coulomb ends: a law may bear no more than that (cohesive_overlap) or "
+        "all of it (vertex_edge)",
         row, values[tensile], values[cohesion] / std::tan(values[angle])));
   }
 }

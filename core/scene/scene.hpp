@@ -113,7 +113,7 @@ struct Monitor {
 };
 
 /// Global damping: a force per mass and velocity of given size; or of the size that is critical for the
-/// slowest motion as it is found under way (adaptive); or none, but velocities are set to zero at each peak
+/// slowest motion as it is found under way (adaptive); or none, but velocities are taken away at each peak
 /// of the kinetic energy (kinetic).
 struct Damping {
   enum class Kind { constant, adaptive, kinetic };

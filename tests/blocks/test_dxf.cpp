@@ -76,6 +76,7 @@ TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   CHECK_THAT(refusal("  0\nEOF\n"), Contains("d.dxf:2: this is no DXF"));
   CHECK_THAT(refusal(""), Contains("no DXF"));
   CHECK_THAT(refusal("AutoCAD Binary DXF\r\n"), Contains("save it as text"));
+  CHECK_THAT(refusal("AC1032\0\n"), Contains("this is a DWG: save it as a DXF"));
   CHECK_THAT(refusal("  0\nSECTION\n  2\nHEADER\n  0\nENDSEC\n  0\nEOF\n"), Contains("no section ENTITIES"));
   CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n"), Contains("ends after the code 10"));
   CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n1\n"), Contains("ends within"));

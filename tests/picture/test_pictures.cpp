@@ -123,8 +123,9 @@ TEST_CASE("The picture of a scene shows what it is made of", "[picture]") {
                  "surface_loads": [{"body": "a", "surface": "top", "pressure": 1e3}],)";
   const std::string svg = scene_svg(Simulation(text.read(), {}));
   check_xml(svg);
-  for (const char* words : {">base<", ">a<", ">b<", "surface top", "velocity, the longest 3 m/s",
-                            "rotation held", ">load<", "traction, pressure", "9.81 m/s²"}) {
+  for (const char* words :
+       {">base<", ">a<", ">b<", "surface top", "velocity, the longest 3 m/s", "rotation held", ">load<",
+        "traction, pressure, the longest 1e+03 Pa", "<title>a</title></path>", "9.81 m/s²"}) {
     CHECK_THAT(svg, Contains(words));
   }
 }
