@@ -19,7 +19,7 @@ struct CornerContact {
   std::uint32_t key;          ///< the vertex, known again at the next step
   std::uint32_t side;         ///< of the other body's piece
   double depth;               ///< m, behind the side; negative across an intact bond
-  double lever;               ///< foot of the vertex along the side, 0 to 1
+  double lever;               ///< foot of the vertex along the side, 0 to 1 on it
   double tributary;           ///< m, length of boundary whose load the vertex carries
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
   double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1

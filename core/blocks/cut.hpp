@@ -37,11 +37,11 @@ struct CutDomain {
   std::vector<LooseEnd> loose_ends;
 };
 
-/// The blocks into which lines cut the domain. Ends of lines that lead nowhere do not cut; ends that come
-/// within 1e-8 of the domain's size of another line count as meeting it. A block below the smallest area, or
-/// thinner than 1e-7 of the domain's size, joins the neighbour with which it has the longest boundary in
-/// common, the smallest first; one without neighbour is left out. Quadrilaterals are split last, along the
-/// shorter diagonal, where no triangle is below the smallest area.
+/// The blocks into which lines cut the domain, and where drawn lines cut nothing. Ends of lines that lead
+/// nowhere do not cut; ends that come within 1e-8 of the domain's size of another line count as meeting it. A
+/// block below the smallest area, or thinner than 1e-7 of the domain's size, joins the neighbour with which
+/// it has the longest boundary in common, the smallest first; one without neighbour is left out.
+/// Quadrilaterals are split last, along the shorter diagonal, where no triangle is below the smallest area.
 ///
 /// Sorted by centroid (x, then y), then area; each loop begins at its lowest vertex, of these the leftmost,
 /// and has no vertex within a straight edge. Throws std::runtime_error where the geometry cannot be worked

@@ -23,6 +23,23 @@ Span span_of(const Box& box, Vec2 direction) {
   return {std::min(x0, x1) + std::min(y0, y1), std::max(x0, x1) + std::max(y0, y1)};
 }
 
+/// m, of a line within a box (Liang–Barsky).
+double length_within(Vec2 a, Vec2 b, const Box& box) {
+  double from = 0, to = 1;
+  const auto cut = [&](double start, double change, double low, double high) {
+    if (change == 0) {
+      if (start < low || start > high) to = 0;
+      return;
+    }
+    const double at_low = (low - start) / change, at_high = (high - start) / change;
+    from = std::max(from, std::min(at_low, at_high));
+    to = std::min(to, std::max(at_low, at_high));
+  };
+  cut(a.x, b.x - a.x, box.low.x, box.high.x);
+  cut(a.y, b.y - a.y, box.low.y, box.high.y);
+  return std::max(0.0, to - from) * std::hypot(b.x - a.x, b.y - a.y);
+}
+
 /// Exact where the angle is a whole multiple of 90°, which sin and cos are not.
 Vec2 direction_of(double angle) {
   const double quarters = angle / (std::numbers::pi / 2);
@@ -172,23 +189,6 @@ Density density_of(const Sites& sites, const Box& box) {
   // Sides of Voronoi cells of n points per area have a length of 2 √n per area.
   const double count = sites_in(sites, box);
   return {count, 2 * std::sqrt(count / (box.width() * box.height()))};
-}
-
-/// m, of a line within a box (Liang–Barsky).
-double length_within(Vec2 a, Vec2 b, const Box& box) {
-  double from = 0, to = 1;
-  const auto cut = [&](double start, double change, double low, double high) {
-    if (change == 0) {
-      if (start < low || start > high) to = 0;
-      return;
-    }
-    const double at_low = (low - start) / change, at_high = (high - start) / change;
-    from = std::max(from, std::min(at_low, at_high));
-    to = std::min(to, std::max(at_low, at_high));
-  };
-  cut(a.x, b.x - a.x, box.low.x, box.high.x);
-  cut(a.y, b.y - a.y, box.low.y, box.high.y);
-  return std::max(0.0, to - from) * std::hypot(b.x - a.x, b.y - a.y);
 }
 
 Density density_of(const std::vector<Cut>& cuts, const Box& box) {

@@ -192,7 +192,6 @@ void Simulation::State::warn_of_initial_overlap() {
       place(totals.deepest_a), place(totals.deepest_b), totals.penetration));
 }
 
-/// At output times, once in a run: check_step() knows how deep contact sees half of a body's sides alone.
 /// Displacements count from t = 0: nothing else tells of a block that was drawn in the air.
 void Simulation::State::warn_of_settlement() {
   std::size_t count = 0;
@@ -213,6 +212,7 @@ void Simulation::State::warn_of_settlement() {
       count == 1 ? "its width" : "their widths", count == 1 ? "" : "the most ", place(farthest), most));
 }
 
+/// At output times, once in a run: check_step() knows how deep contact sees half of a body's sides alone.
 void Simulation::State::warn_of_thin_ground() {
   if (model.covered_bodies.empty()) return;
   constexpr const char* met = "is met deeper than contact sees it";

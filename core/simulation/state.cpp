@@ -285,7 +285,7 @@ void Simulation::State::make_plan(double end) {
     return;
   }
   double dt = nominal_dt();
-  limit = scene.time.dt ? Limit::scene : Limit::critical;
+  if (!scene.time.dt) limit = Limit::critical;
   if (!scene.time.dt && allowed_dt() < dt) {
     dt = allowed_dt();
     limit = Limit::speed;
@@ -307,8 +307,10 @@ void Simulation::State::make_plan(double end) {
     throw NumericalTrouble(words);
   }
   const auto steps = static_cast<std::uint64_t>(wanted);
-  if (scene.time.dt && span < dt * (1 - rounding)) limit = Limit::output;
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
+  // Of fixed steps that which limits the largest: what is left over at the end may be short.
+  if (scene.time.dt && plan.dt > summary.dt)
+    limit = span < dt * (1 - rounding) ? Limit::output : Limit::scene;
   summary.dt = std::max(summary.dt, plan.dt);
 }
 

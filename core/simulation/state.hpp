@@ -61,7 +61,7 @@ struct Simulation::State {
     double target = 0;  ///< s, the output time; later than `end` where a stage begins before
   };
   Plan plan;
-  enum class Limit { none, scene, output, speed, critical };
+  enum class Limit { none, scene, speed, critical, output };
   Limit limit = Limit::none;    ///< what made the step of the plan as short as it is
   CriticalStep planned_with{};  ///< the bound then
 

@@ -325,3 +325,16 @@ TEST_CASE("a stage that changes nothing does no work on bodies that meet as it b
     CHECK(simulation.ledger().external_work == 0);
   }
 }
+
+TEST_CASE("a step longer than the time between outputs is told, and what shortened it", "[simulation]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, R"("velocity": [1, 0])");
+  text.output = R"({"history": 0.001})";
+  for (const auto& [dt, told] : {std::pair{"0.01", true}, {"0.0005", false}}) {
+    text.time = std::string(R"({"end": 0.0022, "dt": )") + dt + "}";  // the last interval is a short one
+    const RunSummary summary = run_to_end(text).summary();
+    CHECK((summary.dt_limiter == "time.dt of the scene") == !told);
+    CHECK((!summary.warnings.empty() &&
+           summary.warnings[0].find("longer than the time between outputs") != std::string::npos) == told);
+  }
+}

@@ -1,0 +1,30 @@
+#include "safety/collapse.hpp"
+
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+
+TEST_CASE("A piece that slows down goes on until it rests or has come far", "[safety]") {
+  WorkingScene text;
+  text.gravity = "[0, -10]";
+  text.bodies = box("table", -3, -1, 3, 0, R"("fixed": true)") + ", " + box("a", 0, 0, 1, 1);
+  const Pieces pieces(Simulation(text.read(), {}));
+  REQUIRE(pieces.all().size() == 1);
+  REQUIRE(pieces.all()[0].width == Approx(1));
+  struct Case {
+    double moved_middle, speed_middle, moved_end, speed_end;  // m, m/s
+    Course due;
+  };
+  for (const Case& c : {Case{0.01, 0.1, 0.02, 0.1, Course::failed},       // at a steady speed
+                        Case{0.01, 0.1, 0.016, 0.05, Course::goes_on},    // at half of it
+                        Case{0.01, 0.1, 0.012, 0.05, Course::rests},      // hardly any way in the second half
+                        Case{0.01, 0.1, 0.016, 0.01, Course::rests},      // nearly at rest
+                        Case{0.03, 0.1, 0.06, 0.01, Course::failed},      // far, wherever it stops
+                        Case{0.0001, 0.1, 0.0002, 0.1, Course::goes_on},  // steady, too little to tell
+                        Case{0.0001, 0.1, 0.00016, 0.05, Course::rests}}) {  // slower, and too little to tell
+    INFO(c.moved_end << " m, " << c.speed_end << " m/s");
+    CHECK(pieces.course(0, {{c.moved_middle}, {c.speed_middle}}, {{c.moved_end}, {c.speed_end}}) == c.due);
+  }
+}
