@@ -232,6 +232,7 @@ class CohesiveOverlap final : public ContactModel {
         here.opening > 0 ? dashpot(values[3], strength.normal_stiffness, now.opening_rate) : 0;
     const double viscous_shear = dashpot(values[4], strength.tangential_stiffness, now.slip_rate);
     report.damping_power += (viscous_tension * now.opening_rate + viscous_shear * now.slip_rate) * batch.dt;
+    report.damping_force += static_cast<float>(std::abs(viscous_tension) + std::abs(viscous_shear));
 
     const Point across = -(tension + viscous_tension) * now.normal;
     const Point along = -(shear + viscous_shear) * now.tangent;

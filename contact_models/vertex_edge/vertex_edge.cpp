@@ -246,6 +246,7 @@ class VertexEdge final : public ContactModel {
     report.penetration = std::max(report.penetration, contact.depth);
 
     report.damping_power += contact.share * viscous * closing * batch.dt;
+    report.damping_force += static_cast<float>(contact.share * std::abs(viscous));
     double tangential = force.tangential;
     if (!force.slips && spring.tangential > 0 && spring.friction + spring.cohesion > 0) {
       const double shear_dashpot =
@@ -255,7 +256,9 @@ class VertexEdge final : public ContactModel {
                                : spring.cohesion + spring.friction * std::max(0.0, force.normal + viscous);
       tangential = std::clamp(tangential - shear_dashpot * dot(relative, along),
                               -std::max(limit, std::abs(tangential)), std::max(limit, std::abs(tangential)));
-      report.damping_power += contact.share * std::max(0.0, -(tangential - force.tangential) * slip);
+      const double viscous_shear = tangential - force.tangential;
+      report.damping_power += contact.share * std::max(0.0, -viscous_shear * slip);
+      report.damping_force += static_cast<float>(contact.share * std::abs(viscous_shear));
     }
 
     const Point across = contact.share * (force.normal + viscous) * normal;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/room.hpp"
+#include "kernels/contacts.hpp"
 
 #include <talus/contact_model.hpp>
 
@@ -47,20 +48,20 @@ class ContactSlots {
   /// Of the last step that was observed.
   ContactReport* reports(std::size_t slot) { return reports_.data() + slot; }
   const ContactReport* reports(std::size_t slot) const { return reports_.data() + slot; }
-  /// J/m of the last step, at the first slot of a pair.
-  double* damping_power(std::size_t slot) { return damping_power_.data() + slot; }
+  /// Of the last step, at the first slot of a pair.
+  kernels::FormerDashpots* dashpots(std::size_t slot) { return dashpots_.data() + slot; }
 
   /// What stands in all slots, while they are closed up.
   template <class Archive>
   void exchange(Archive& archive) {
     archive(history_);
     archive(reports_);
-    archive(damping_power_);
+    archive(dashpots_);
   }
   /// Whether there are slots for so many contacts, and nothing else.
   bool hold(std::size_t contacts) const {
     return history_.size() == contacts * doubles_ && (reports_.size() == contacts || reports_.empty()) &&
-           damping_power_.size() == contacts;
+           dashpots_.size() == contacts;
   }
   /// Of so many contacts, while they are closed up and may come from where others were kept.
   void fit_reports(std::size_t contacts) { reports_.resize(keeps_reports_ ? contacts : 0); }
@@ -71,7 +72,7 @@ class ContactSlots {
   void over_all(const Each& each) {
     each(history_, doubles_);
     if (keeps_reports_) each(reports_, 1);
-    each(damping_power_, 1);
+    each(dashpots_, 1);
   }
 
   /// To a place that is no earlier, or far away.
@@ -86,7 +87,7 @@ class ContactSlots {
   std::size_t most_ = 0;
   InLines<double> history_;
   std::vector<ContactReport> reports_;
-  std::vector<double> damping_power_;
+  std::vector<kernels::FormerDashpots> dashpots_;
   std::vector<unsigned char> aside_;  ///< of a batch, while its contacts are put in their order
 };
 

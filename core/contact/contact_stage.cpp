@@ -285,7 +285,7 @@ void ContactStage::close(const Model& model, std::size_t batch, std::span<const 
   const kernels::PairBooks books{pairs_.data() + begin,
                                  ask_again_.data() + begin,
                                  approach_.data() + begin,
-                                 slots_.damping_power(slot),
+                                 slots_.dashpots(slot),
                                  slots_.history(slot),
                                  found.history.data(),
                                  found.reports.data(),

@@ -35,7 +35,7 @@ void ContactStage::hold_sleeping_pairs() {
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (sleeps(pairs_[i])) {
       ask_again_[i] = asleep;
-      if (pairs_[i].contact_count > 0) *slots_.damping_power(slot_of(i)) = 0;
+      if (pairs_[i].contact_count > 0) *slots_.dashpots(slot_of(i)) = {};
       continue;
     }
     if (ask_again_[i] == asleep) ask_again_[i] = in_this_step;

@@ -39,7 +39,8 @@ inline void copy_few(const double* from, std::size_t count, double* to) {
 static_assert(offsetof(PairReport, damping_power) - offsetof(PairReport, penetration) == 3 * sizeof(double));
 
 /// A pair without contact, or one that is short of slots.
-inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, ClosedChunk& closed) {
+inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, double& carried_on,
+                        ClosedChunk& closed) {
   BodyPair& pair = books.pairs[i];
   const PairReport& report = books.reports[i];
   if (report.contact_count != 0) {
@@ -50,7 +51,10 @@ inline void close_other(const PairBooks& books, std::uint32_t i, Row& sum, Close
   load_row(&report.penetration, row);
   sum += row;
   if (std::isnan(report.gap)) closed.finite = false;
-  if (pair.contact_count != 0) closed.parted.add(i);
+  if (pair.contact_count != 0) {
+    closed.parted.add(i);
+    carried_on += books.dashpots[pair.slot_start].power;  // nothing pushed, so it moved on as before
+  }
   pair.contact_count = 0;
   books.approach[i] = at_least(books.drift[pair.a].approach(books.drift[pair.b]));
   books.ask_again[i] =
@@ -62,14 +66,15 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
                ClosedChunk& closed) {
   const PairBooks books = given;  // which no store below can change
   Row touching{}, other{};
-  double penetration = totals.penetration, mean_power = 0;
+  double penetration = totals.penetration;
+  double carried_on = 0;  // J/m, what dashpots push with at t_{n-1} times displacement since then
   for (const std::uint32_t *at = active, *const end = active + count; at != end; ++at) {
     const std::size_t i = *at;
     BodyPair& pair = books.pairs[i];
     const PairReport& report = books.reports[i];
     const std::uint32_t contacts = report.contact_count;
     if (contacts - 1 >= pair.slot_capacity) {  // 0 − 1 is the largest of all numbers
-      close_other(books, *at, other, closed);
+      close_other(books, *at, other, carried_on, closed);
       continue;
     }
     Row row;
@@ -80,15 +85,19 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
       totals.deepest_a = pair.a;
       totals.deepest_b = pair.b;
     }
-    double* const former_power = books.damping_power + pair.slot_start;
+    FormerDashpots& former = books.dashpots[pair.slot_start];
     if (pair.contact_count == 0) {
       closed.met.add(*at);
-      *former_power = 0;
+      former = {};
     }
     pair.contact_count = contacts;
-    const double power = report.damping_power, product = power * *former_power;
-    if (product > 0) mean_power += std::sqrt(product);
-    *former_power = power;
+    const double power = report.damping_power;
+    FormerDashpots now;
+    if (power > 0 && report.damping_force > 0) {
+      now = {static_cast<float>(power), report.damping_force};
+      carried_on += former.force * (power / now.force);
+    }
+    former = now;
     books.ask_again[i] = 0;
     const std::size_t start = std::size_t{pair.slot_start} * books.history_doubles,
                       doubles = std::size_t{contacts} * books.history_doubles;
@@ -103,8 +112,9 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
   totals.penetration = penetration;
   totals.stored += all[1];
   totals.slip_loss += all[2];
-  // Work of the dashpots between t_{n-1} and t_n, from their power at both ends.
-  totals.damping_loss += (touching[3] + mean_power) / 2;
+  // Work of the dashpots between t_{n-1} and t_n by the trapezoid rule, as that of springs is. At both ends
+  // they are moved by the same, but a dashpot that may not pull gives way from one to the other.
+  totals.damping_loss += (touching[3] + carried_on) / 2;
 }
 
 void close(const PairBooks& books, const std::uint32_t* active, std::size_t count, ContactTotals& totals,

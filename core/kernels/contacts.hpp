@@ -51,14 +51,21 @@ struct Drift {
   }
 };
 
+/// What the dashpots of a pair did in the last step. Single precision serves: these books owe more to the
+/// step.
+struct FormerDashpots {
+  float power = 0;  ///< J/m, PairReport::damping_power
+  float force = 0;  ///< N/m
+};
+
 /// What is kept of the pairs of a batch, and what a law found of them; [pair].
 struct PairBooks {
   BodyPair* pairs;
-  float* ask_again;       ///< m of way, see Way, when a law is to be asked next
-  float* approach;        ///< m/s, at which its bodies drift together at most
-  double* damping_power;  ///< J/m of the last step, at the first slot of a pair in contact
-  double* history;        ///< [slot * history_doubles] of the last step
-  const double* found;    ///< the same, of this one
+  float* ask_again;          ///< m of way, see Way, when a law is to be asked next
+  float* approach;           ///< m/s, at which its bodies drift together at most
+  FormerDashpots* dashpots;  ///< at the first slot of a pair in contact
+  double* history;           ///< [slot * history_doubles] of the last step
+  const double* found;       ///< the same, of this one
   const PairReport* reports;
   std::uint32_t history_doubles;
   const Drift* drift;  ///< [body]

@@ -52,7 +52,7 @@ struct SomeSlots {
       for (std::uint32_t k = 0; k < doubles; ++k) slots.history(slot_of(pair) + c)[k] = value(pair, c, k);
       slots.reports(slot_of(pair) + c)->px = value(pair, c, 7);
     }
-    *slots.damping_power(slot_of(pair)) = value(pair, 0, 9);
+    slots.dashpots(slot_of(pair))->force = static_cast<float>(value(pair, 0, 9));
   }
 
   /// Each contact is where its pair says, and no slot is given twice or lies beyond its batch.
@@ -72,7 +72,8 @@ struct SomeSlots {
       for (std::uint32_t k = 0; k < doubles; ++k) REQUIRE(slots.history(first + c)[k] == value(pair, c, k));
       REQUIRE(slots.reports(first + c)->px == value(pair, c, 7));
     }
-    if (pairs[pair].contact_count > 0) REQUIRE(*slots.damping_power(first) == value(pair, 0, 9));
+    if (pairs[pair].contact_count > 0)
+      REQUIRE(slots.dashpots(first)->force == static_cast<float>(value(pair, 0, 9)));
   }
 };
 

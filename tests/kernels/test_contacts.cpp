@@ -21,7 +21,8 @@ struct SomePairs {
   std::vector<BodyPair> pairs;
   std::vector<PairReport> reports;
   std::vector<float> ask_again, approach;
-  std::vector<double> damping_power, history, found;
+  std::vector<FormerDashpots> dashpots;
+  std::vector<double> history, found;
   std::vector<Drift> drift;  ///< [body]
   std::uint32_t doubles;
   static constexpr double rounding = 1e-3;
@@ -47,7 +48,8 @@ struct SomePairs {
       } else {
         const std::uint32_t contacts =
             i % 17 == 1 ? pair.slot_capacity + 2 : 1 + i % std::max(pair.slot_capacity, 1U);
-        report = {contacts, random(), random(), random(), random(), 0};
+        report = {contacts, static_cast<float>(random()), random(), random(), random(), random(), 0};
+        if (i % 6 == 5) report.damping_power = 0;  // the force is whatever was there
       }
       pairs.push_back(pair);
       reports.push_back(report);
@@ -57,14 +59,15 @@ struct SomePairs {
     for (std::size_t body = 0; body < 1000 + pairs.size(); ++body)
       drift.push_back({at_most(random()), at_most(random()), at_least(random())});
     history.assign((slot + 1) * doubles, untouched);
-    for (std::uint32_t i = 0; i <= slot; ++i) damping_power.push_back(random());  // also of who is apart
+    for (std::uint32_t i = 0; i <= slot; ++i)  // also of who is apart
+      dashpots.push_back({static_cast<float>(random()), static_cast<float>(random())});
     for (std::size_t i = 0; i < history.size(); ++i) found.push_back(random());
   }
 
   /// Those of `asked`, rising.
   void close(SimdLevel level, const std::vector<std::uint32_t>& asked) {
     const PairBooks books{pairs.data(),    ask_again.data(),
-                          approach.data(), damping_power.data(),
+                          approach.data(), dashpots.data(),
                           history.data(),  found.data(),
                           reports.data(),  doubles,
                           drift.data(),    way,
@@ -86,15 +89,22 @@ struct SomePairs {
       sum.stored += report.stored;
       sum.slip_loss += report.slip_loss;
       if (report.contact_count > 0) {
-        double& power = damping_power[pair.slot_start];
-        const double former = pair.contact_count == 0 ? 0 : power;
-        sum.damping_loss += (report.damping_power + std::sqrt(report.damping_power * former)) / 2;
-        power = report.damping_power;
+        FormerDashpots& former = dashpots[pair.slot_start];
+        sum.damping_loss += report.damping_power / 2;
+        if (report.damping_power == 0) {
+          former = {0, 0};
+        } else {
+          if (pair.contact_count > 0)
+            sum.damping_loss += former.force * (report.damping_power / report.damping_force) / 2;
+          former = {static_cast<float>(report.damping_power), report.damping_force};
+        }
         if (report.penetration > sum.penetration)
           sum.penetration = report.penetration, sum.deepest_a = pair.a, sum.deepest_b = pair.b;
         for (std::uint32_t at = 0; at < report.contact_count * doubles; ++at)
           history[pair.slot_start * doubles + at] = found[pair.slot_start * doubles + at];
       }
+      if (report.contact_count == 0 && pair.contact_count > 0)
+        sum.damping_loss += dashpots[pair.slot_start].power / 2.0;
       if (report.contact_count == 0) approach[i] = at_least(drift[pair.a].approach(drift[pair.b]));
       ask_again[i] = report.contact_count > 0
                          ? 0
@@ -108,6 +118,10 @@ std::vector<std::uint32_t> numbers(std::size_t count) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < count; ++i) all.push_back(i);
   return all;
+}
+
+bool same_dashpots(const std::vector<FormerDashpots>& p, const std::vector<FormerDashpots>& q) {
+  return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof p[0]) == 0;
 }
 
 bool same_totals(const ContactTotals& p, const ContactTotals& q) {
@@ -126,7 +140,7 @@ TEST_CASE("pairs are closed as each alone would be", "[kernels][contacts]") {
       got.close(static_cast<SimdLevel>(level), numbers(got.pairs.size()));
       CHECK(got.ask_again == due.ask_again);
       CHECK(got.approach == due.approach);
-      CHECK(got.damping_power == due.damping_power);
+      CHECK(same_dashpots(got.dashpots, due.dashpots));
       CHECK(got.history == due.history);
       for (std::size_t i = 0; i < got.pairs.size(); ++i)
         REQUIRE(got.pairs[i].contact_count == due.pairs[i].contact_count);

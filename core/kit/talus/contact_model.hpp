@@ -177,11 +177,12 @@ struct ContactReport {
 /// Per pair, for the energy ledger and the guards.
 struct PairReport {
   std::uint32_t
-      contact_count;   ///< contacts found; if more than slot_capacity the host makes room and asks again
-  double penetration;  ///< m, the largest overlap depth of the pair
-  double stored;       ///< J/m, recoverable energy: normal and tangential springs
-  double slip_loss;    ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
-  double damping_power;  ///< J/m, damping force times displacement since t_{n-1}; never negative
+      contact_count;    ///< contacts found; if more than slot_capacity the host makes room and asks again
+  float damping_force;  ///< N/m, of all dashpots, by size; read where damping_power is not 0
+  double penetration;   ///< m, the largest overlap depth of the pair
+  double stored;        ///< J/m, recoverable energy: normal and tangential springs
+  double slip_loss;     ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
+  double damping_power;  ///< J/m, damping force of t_n times displacement since t_{n-1}; never negative
   double gap;  ///< m, 0, or of a pair without contact: the bodies are at least so far apart, and the law need
                ///< not be asked again until they may have come so much closer
 };

@@ -86,12 +86,13 @@ class AreaLaw : public talus::ContactModel {
   virtual bool bears(const Piece& piece, std::uint32_t side) const { return piece.real(side); }
   virtual bool holds_stick(const ContactBatch& batch) const { return batch.hold_stick; }
   virtual double depth(double measured) const { return measured; }
-  virtual double stored(double energy) const { return energy; }
+  virtual double stored(const Seen&, double energy) const { return energy; }
   virtual double squeeze() const { return 0; }  ///< share of the load, along the longest stretch
   virtual double loss(double work, double stored_more) const { return work - stored_more; }
   virtual bool apart(const ContactBatch&, const ContactLoads&, const Seen&, talus::PairReport&) const {
     return false;
   }
+  virtual void tell_dashpots(const Seen&, talus::PairReport&) const {}
 
  private:
   /// `visit(piece a, piece b, overlap)` of all piece pairs.
@@ -178,7 +179,8 @@ class AreaLaw : public talus::ContactModel {
                      sink.on_side(piece, side, piece.lever(side, at), -p * n);
                    });
     });
-    report.stored = stored(p * seen.area / 2);
+    report.stored = stored(seen, p * seen.area / 2);
+    tell_dashpots(seen, report);
     report.penetration = depth(seen.area / seen.longest_stretch[seen.longest_stretch[0] > 0 ? 0 : 1]);
 
     const double load = p * length(seen.outward);

@@ -10,7 +10,7 @@ class StoresAtOnce final : public AreaLaw {
   using AreaLaw::AreaLaw;
 
  private:
-  double stored(double energy) const override { return energy + 0.01; }
+  double stored(const Seen&, double energy) const override { return energy + 0.01; }
 };
 
 constexpr talus::Component components[] = {area_law<StoresAtOnce>("stores_at_once")};

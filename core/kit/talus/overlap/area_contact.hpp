@@ -201,6 +201,7 @@ inline double viscous_pressure(std::span<const LoadedEdge> edges, double chord, 
   const double rate = area_rate(edges);
   const double pressure = std::max(2 * ratio * std::sqrt(stiffness * mass) * rate / (chord * chord), -most);
   report.damping_power += pressure * rate * dt;
+  report.damping_force += static_cast<float>(std::abs(pressure) * chord);
   return pressure;
 }
 

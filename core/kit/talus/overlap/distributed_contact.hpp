@@ -362,6 +362,7 @@ class DistributedContact {
           sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * cell.normal);
           sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
           report.damping_power += force * rate[end] * dt;
+          report.damping_force += static_cast<float>(std::abs(force));
           cell.load += force;
           on_end += force * master.lever(cell.side, at);
         }
@@ -403,7 +404,9 @@ class DistributedContact {
     if (damping > 0 && history.slip == 0 && law.rule() == FrictionRule::return_mapping) {
       const double viscosity = 2 * damping / load * std::sqrt(input.stiffness * pair.reduced_mass);
       force = std::clamp(force - viscosity * slip_velocity_, -input.limit, input.limit);
-      report.damping_power += std::max(0.0, -(force - history.applied) * slip_increment_);
+      const double dashpot = force - history.applied;
+      report.damping_power += std::max(0.0, -dashpot * slip_increment_);
+      report.damping_force += static_cast<float>(std::abs(dashpot));
     }
     for (const Cell& cell : cells_) {
       const double part = force * cell.interface.friction * cell.load / limit;

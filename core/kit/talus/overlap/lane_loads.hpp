@@ -79,7 +79,7 @@ class LaneLoads {
   }
 
   struct Report {
-    Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0;
+    Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0, damping_force = 0.0;
     Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
     Packs2 foot;            ///< m, where it acts
     Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
@@ -96,9 +96,13 @@ class LaneLoads {
         contact_length_ > 0.0,
         share * 2.0 * interface.normal_damping *
             simd::sqrt(interface.normal_stiffness * simd::load(g.reduced_mass) / contact_length_));
-    Pack power = 0.0;
-    each_cell([&](LaneCell& cell) { power = power + load_cell<true>(cell, stiffness, viscosity); });
-    report.damping_power = power * dt;
+    Dashpots all;
+    each_cell([&](LaneCell& cell) {
+      const Dashpots of_cell = load_cell<true>(cell, stiffness, viscosity);
+      all = {all.power + of_cell.power, all.force + of_cell.force};
+    });
+    report.damping_power = all.power * dt;
+    report.damping_force = all.force;
   }
 
   template <class Visit>
@@ -108,15 +112,19 @@ class LaneLoads {
     }
   }
 
+  struct Dashpots {
+    Pack power = 0.0, force = 0.0;
+  };
+
   /// Eqs. 28–36: on the slave by the trapezoid rule, on the master through the foot. The dashpot never pulls.
-  /// Returns its power.
   template <bool damped>
-  static Pack load_cell(LaneCell& cell, Pack stiffness, Pack viscosity) {
+  static Dashpots load_cell(LaneCell& cell, Pack stiffness, Pack viscosity) {
     LaneCorner* const master = cell.master;
     const Packs2 normal = master->normal();
     const Pack master_start = simd::dot(normal, master->velocity),
                master_change = simd::dot(normal, master[1].velocity) - master_start;
-    Pack all = cell.load, on_end = cell.on_end, power = 0.0;
+    Pack all = cell.load, on_end = cell.on_end;
+    Dashpots dashpots;
     for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
       LaneCorner* const slave = at->slave;
       const Pack pressed = stiffness * at->length;
@@ -141,7 +149,8 @@ class LaneLoads {
       slave[1].load = slave[1].load + (press_end * inward + damp_end * normal);
       all = all + both;
       on_end = on_end + (force0 * at->start_lever + force1 * at->end_lever);
-      power = power + (force0 * rate0 + force1 * rate1);
+      dashpots.power = dashpots.power + (force0 * rate0 + force1 * rate1);
+      dashpots.force = dashpots.force + (simd::abs(force0) + simd::abs(force1));
     }
     master[0].push(on_end - all, normal);
     master[1].push(-on_end, normal);
@@ -149,7 +158,7 @@ class LaneLoads {
     // the strain of a sliding block.
     cell.load = simd::max(0.0, all);
     cell.on_end = simd::clamp(on_end, 0.0, cell.load);
-    return power;
+    return dashpots;
   }
 
   /// N/m, on all cells.
@@ -229,8 +238,9 @@ class LaneLoads {
       const Pack damped = simd::clamp(elastic - viscosity * slip, -bound, bound);
       report.tangential =
           simd::select(holds & !slips & (interface.tangential_damping > 0.0), damped, elastic);
-      report.damping_power =
-          report.damping_power + simd::max(0.0, -(report.tangential - elastic) * increment);
+      const Pack dashpot = report.tangential - elastic;
+      report.damping_power = report.damping_power + simd::max(0.0, -dashpot * increment);
+      report.damping_force = report.damping_force + simd::abs(dashpot);
     }
     const Packs2 force = report.tangential * tangent_;
     piece_[0].template push_point<sides>(share, Pack(-1.0) * force);
@@ -274,6 +284,7 @@ class LaneLoads {
     }
     const Pack energies[4] = {report.penetration, report.stored, report.slip_loss, report.damping_power};
     simd::scatter_rows(energies, report_row);
+    if (simd::any(report.damping_power > 0.0)) write_dashpots(loads, g, report, wanted);
     if constexpr (Law::frictional) {
       const Pack first[4] = {report.elastic, report.applied, report.spring_energy, contact_length_};
       simd::scatter_rows(first, row);
@@ -282,6 +293,14 @@ class LaneLoads {
       simd::scatter_rows(second, second_row);
     }
     if (loads.reports != nullptr) write_contacts(loads, g, report, wanted);
+  }
+
+  static void write_dashpots(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
+                             LaneBits wanted) {
+    alignas(64) double force[lanes];
+    simd::store(report.damping_force, force);
+    each_lane(wanted,
+              [&](int lane) { loads.pairs[g.pair[lane]].damping_force = static_cast<float>(force[lane]); });
   }
 
   void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
