@@ -37,21 +37,50 @@ void flush_to_disk(const std::filesystem::path& path) {
   if (!flushed) fail("cannot write", path);
 }
 
+/// A link keeps pointing where it does: what it names is written.
+std::filesystem::path followed(std::filesystem::path file) {
+  constexpr int most_links = 40;  // as the kernel has it
+  for (int link = 0; link < most_links && std::filesystem::is_symlink(file); ++link)
+    file = file.parent_path() / std::filesystem::read_symlink(file);
+  return file;
+}
+
+void write_into(const std::filesystem::path& file, std::string_view contents) {
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+  stream.close();
+  if (!stream) fail("cannot write", file);
+}
+
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& file, std::string_view contents, Durability durability) {
-  std::filesystem::path temporary = file;
+  const std::filesystem::path place = followed(file);
+  if (std::filesystem::is_directory(place)) {
+    errno = EISDIR;
+    fail("cannot write", place);
+  }
+  // A pipe or a device has no place that another file could take.
+  if (std::filesystem::exists(place) && !std::filesystem::is_regular_file(place)) {
+    write_into(place, contents);
+    return;
+  }
+  std::filesystem::path temporary = place;
   temporary += ".part";
   errno = 0;
   std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   stream.close();
-  if (!stream) fail_without(temporary, file);
+  if (!stream) fail_without(temporary, place);
   if (durability == Durability::on_disk) flush_to_disk(temporary);
   std::error_code problem;
-  std::filesystem::rename(temporary, file, problem);
-  if (problem) throw std::system_error(problem, fmt::format("cannot write '{}'", file.string()));
-  if (durability == Durability::on_disk) flush_to_disk(file.has_parent_path() ? file.parent_path() : ".");
+  std::filesystem::rename(temporary, place, problem);
+  if (problem) {
+    errno = problem.value();
+    fail_without(temporary, place);
+  }
+  if (durability == Durability::on_disk) flush_to_disk(place.has_parent_path() ? place.parent_path() : ".");
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {

@@ -9,8 +9,8 @@ namespace talus {
 /// Where the contents of a file are when writing returns: a file on the disk outlives a failure of the power.
 enum class Durability { with_the_system, on_disk };
 
-/// Writes a file that is whole at any moment: into a temporary beside it, which then takes its name. Throws
-/// std::system_error that names the file.
+/// Writes a file that is whole at any moment: into a temporary beside it, which then takes its name. Links
+/// are followed; pipes and devices are written into. Throws std::system_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view contents,
                       Durability durability = Durability::with_the_system);
 
