@@ -124,13 +124,13 @@ void ContactStage::refuse_unsound_stiffness(const RegisteredComponent& law) cons
 
 void ContactStage::set_interfaces(const std::vector<std::vector<double>>& values) {
   if (!law_) return;
-  former_interface_values_.swap(interface_values_);
   interface_values_.clear();
   for (std::vector<double> row : values) {
     law_->prepare_interface(row.data());
     interface_values_.insert(interface_values_.end(), row.begin(), row.end());
   }
   interfaces_.value = interface_values_.data();
+  loads_.renew();  // with other parameters a law may find contact where it finds none now
 }
 
 /// A fixed body is master; between moving bodies both roles count half, or a declared priority decides.
@@ -174,41 +174,6 @@ void ContactStage::evaluate(const Model& model, MotionState& motion, const Condi
     if ((conditions.observed || unsound || !finite) && fault_.found.empty())
       fault_ = fault_of(model, motion, now);
   }
-}
-
-double ContactStage::with_former_interfaces(const Model& model, const MotionState& motion,
-                                            const Conditions& conditions) {
-  if (!law_ || pairs_.empty()) return 0;
-  chunk_totals_.assign(chunk_totals_.size(), {});
-  // What is found here is not kept, so no plan may count on it.
-  std::vector<std::unique_ptr<BatchPlan>> plans;
-  plans.swap(plans_);
-  interfaces_.value = former_interface_values_.data();
-  const auto add_energies = [&](std::size_t batch, std::span<const std::uint32_t> active, Workspace& found) {
-    for (const std::uint32_t i : active) {
-      const std::size_t pair = batch_begin_[batch] + i;
-      ChunkTotals& chunk = chunk_totals_[pair / sharing_.chunk];
-      chunk.stored += found.reports[i].stored;
-      chunk.slip_loss += found.reports[i].slip_loss;
-      if (found.reports[i].contact_count > pairs_[pair].slot_capacity) note_short_of_room(pair, i, found);
-    }
-  };
-  for (std::size_t number = 0; number < loads_.waves(); ++number) {
-    ask(model, motion, conditions, wave(number), way_, add_energies);
-    // What a pair without room holds a law need not say: all of the wave once more.
-    while (some_short_of_room() && runaway().found.empty()) {
-      make_room();
-      const Wave now = wave(number);
-      std::fill(chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.first_chunk),
-                chunk_totals_.begin() + static_cast<std::ptrdiff_t>(now.end_chunk), ChunkTotals{});
-      ask(model, motion, conditions, now, way_, add_energies);
-    }
-  }
-  interfaces_.value = interface_values_.data();
-  plans_.swap(plans);
-  loads_.renew();  // with other parameters a law may find contact where it finds none now
-  const ContactTotals found = totals();
-  return found.stored + found.slip_loss;
 }
 
 /// Asks the law about the pairs of a wave whose time has come. Calls each(batch, pairs of it that were asked

@@ -64,10 +64,6 @@ class ContactStage {
   /// no number, for that costs as much as a look at all loads.
   const LawFault& fault() const { return fault_; }
 
-  /// What the contacts would hold and have lost, J/m, with the parameters before the last set_interfaces();
-  /// no step is taken.
-  double with_former_interfaces(const Model& model, const MotionState& motion, const Conditions& conditions);
-
   /// Between steps. The law's history goes as it is, whoever's law it is.
   void exchange(Archive& archive, const Model& model);
 
@@ -183,7 +179,7 @@ class ContactStage {
   std::uint16_t master_halves(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<ContactModel, void (*)(void*) noexcept> law_;
-  std::vector<double> interface_values_, former_interface_values_;
+  std::vector<double> interface_values_;
   Interfaces interfaces_{};
   std::vector<double> priority_;  ///< [body], empty with symmetric roles
   std::vector<char> fixed_;       ///< [body]

@@ -19,6 +19,11 @@ Matrix2 unit_spin(const Matrix2& h) {
   return {-h.yx, -(1 + h.yy), 1 + h.xx, h.xy};
 }
 
+/// rad/s, the share of a unit of spin in a rate of H.
+double turning_of(const Body& body, const Matrix2& rate, const Matrix2& spin) {
+  return product(body.moments, 1, rate, spin) / product(body.moments, 1, spin, spin);
+}
+
 void add(Matrix2& to, double factor, const Matrix2& what) {
   to.xx += factor * what.xx;
   to.xy += factor * what.xy;
@@ -66,8 +71,8 @@ void impose_supports(const Body& body, double density, const Support& support,
   }
   const Matrix2 spin = unit_spin(after.h);
   const double inertia = product(body.moments, density, spin, spin);
-  const double turning = product(body.moments, density, after.rate, spin) / inertia;
-  const double turning_before = product(body.moments, density, before.rate, spin) / inertia;
+  const double turning = turning_of(body, after.rate, spin);
+  const double turning_before = turning_of(body, before.rate, spin);
   add(after.rate, impose(support.rotation, inertia, turning, turning_before) - turning, spin);
 }
 
@@ -165,6 +170,28 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
     accelerate_whole(model.bodies[i], i, support_of(supports, i), conditions, update, motion, part);
   });
   return work;
+}
+
+void impose_at_once(const Model& model, const PatchMass& mass, std::span<const Support> supports,
+                    MotionState& motion) {
+  for (const std::uint32_t i : model.moving_bodies) {
+    const Support& support = support_of(supports, i);
+    if (!support.any()) continue;
+    const Body& body = model.bodies[i];
+    BodyMotion& now = motion.bodies[i];
+    if (body.kinematics == Kinematics::covered) {
+      impose_on_patches(model, mass, i, support, motion);
+      continue;
+    }
+    now.velocity = {support.x.value_or(now.velocity.x), support.y.value_or(now.velocity.y)};
+    if (!support.rotation) continue;
+    if (body.kinematics == Kinematics::rigid) {
+      now.spin = *support.rotation;
+      continue;
+    }
+    const Matrix2 spin = unit_spin(now.h);
+    add(now.rate, *support.rotation - turning_of(body, now.rate, spin), spin);
+  }
 }
 
 Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment) {

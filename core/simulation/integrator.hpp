@@ -42,6 +42,10 @@ AccelerationWork accelerate(const Model& model, const PatchMass& mass, std::span
                             MotionState& motion, std::vector<Vec2>& at_step,
                             std::span<const UpdatedPatches> updated = {});
 
+/// Gives bodies at once the velocities that supports want.
+void impose_at_once(const Model& model, const PatchMass& mass, std::span<const Support> supports,
+                    MotionState& motion);
+
 /// The moments that deform a body, J/m, without what turns it as a whole about its centroid: where its
 /// rotation is prescribed, a support carries that. `h` is ∂u/∂X.
 Matrix2 moment_without_spin(const Body& body, const Matrix2& h, const Matrix2& moment);

@@ -6,31 +6,35 @@
 namespace talus {
 
 void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-                        const AccelerationWork& work, double interface_work) {
+                        const AccelerationWork& work, bool stage_begins) {
   EnergyLedger& l = ledger_;
+  const double before = stored() + lost();
   l.kinetic = work.kinetic;
   l.strain = strain.stored;
   l.contact = contact.stored + loads.stored();
   if (!started_) {
     // What was lost or done before t = 0 is no business of this ledger.
-    initial_ = l.kinetic + l.strain + l.contact;
+    initial_ = stored();
     started_ = true;
   } else {
     l.friction_loss += contact.slip_loss;
     l.contact_damping_loss += contact.damping_loss;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += strain.dissipated;
-    l.external_work += work.external_work + work_ahead_ + loads.work() + interface_work;
+    l.external_work +=
+        stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }
   loads.reset_work();
   damping_ahead_ = work.damping_loss_ahead;
   work_ahead_ = work.external_work_ahead;
 
-  const double stored = l.kinetic + l.strain + l.contact;
-  const double lost =
-      l.friction_loss + l.contact_damping_loss + l.global_damping_loss + l.material_loss + l.sleep_loss;
-  l.residual = stored + lost - l.external_work - initial_;
-  l.throughput = std::max({l.throughput, initial_, stored + lost, std::abs(l.external_work)});
+  l.residual = stored() + lost() - l.external_work - initial_;
+  l.throughput = std::max({l.throughput, initial_, stored() + lost(), std::abs(l.external_work)});
+}
+
+double LedgerKeeper::lost() const {
+  const EnergyLedger& l = ledger_;
+  return l.friction_loss + l.contact_damping_loss + l.global_damping_loss + l.material_loss + l.sleep_loss;
 }
 
 void LedgerKeeper::lose_kinetic(double taken) {

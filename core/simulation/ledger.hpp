@@ -11,10 +11,10 @@ namespace talus {
 /// Books the energies of each step and judges the balance.
 class LedgerKeeper {
  public:
-  /// At t_n, once all parts of the step are known. `interface_work`: what a stage did by changing the
-  /// parameters of closed contacts.
+  /// At t_n, once all parts of the step are known. Where a stage begins t_n is booked twice: what then
+  /// differs is the work of who changed the parameters, the loads and the supports.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-            const AccelerationWork& work, double interface_work);
+            const AccelerationWork& work, bool stage_begins);
 
   /// So much kinetic energy, J/m, was just taken, as by global damping.
   void lose_kinetic(double taken);
@@ -37,6 +37,9 @@ class LedgerKeeper {
   double residual_share() const;  ///< of the throughput; 0 while nothing has moved
 
  private:
+  double stored() const { return ledger_.kinetic + ledger_.strain + ledger_.contact; }
+  double lost() const;
+
   EnergyLedger ledger_;
   double initial_ = 0;  ///< J/m, kinetic and stored at t = 0
   double damping_ahead_ = 0, work_ahead_ = 0;

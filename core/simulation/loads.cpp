@@ -90,26 +90,11 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
   }
 }
 
-void Loads::replace(Loads next) {
-  next_ = std::make_unique<Loads>(std::move(next));
-}
-
 void Loads::apply(MotionState& motion, const StepSpan& span, double dt) {
-  if (next_) {
-    // The old loads end at t: they worked over the first half of the last step, and their supports let go.
-    acting_ = false;
-    const std::unique_ptr<Loads> next = std::move(next_);
-    apply(motion, span, dt);
-    const double done = work_, let_go = stored_;
-    *this = std::move(*next);
-    apply(motion, span, dt);
-    work_ += done + stored_ - let_go;
-    return;
-  }
   stored_ = applied_ = 0;
   apply_points(motion, span, dt);
   apply_surface_loads(motion, span, dt);
-  apply_supports(motion, span.time, dt);
+  apply_supports(motion, span.time);
   apply_absorbing(motion, dt);
 }
 
@@ -130,7 +115,6 @@ void Loads::exchange(Archive& archive) {
 /// Trapezoidal rule, which is exact for the leapfrog: f_n works over half of the step behind and half of the
 /// step ahead.
 void Loads::work_through(Worker& worker, Vec2 force, Vec2 moved) {
-  if (!acting_) force = {};
   work_ += ((force.x + worker.last_force.x) * moved.x + (force.y + worker.last_force.y) * moved.y) / 2;
   worker.last_force = force;
 }
@@ -141,7 +125,6 @@ void Loads::apply_points(MotionState& motion, const StepSpan& span, double dt) {
                      point.force[1].over(span, point.scene_point)};
     const Vec2 speed = motion.velocity(point.at);
     work_through(point.worker, force, {speed.x * dt, speed.y * dt});
-    if (!acting_) continue;
     motion.add_force(point.at, force);
     applied_ += size_of(force);
   }
@@ -164,23 +147,19 @@ void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, doubl
     }
     const Vec2 speed = velocity_at(motion, point.at);
     work_through(point.worker, force, {speed.x * dt, speed.y * dt});
-    if (acting_) add_on_side(motion, point.at, force);
+    add_on_side(motion, point.at, force);
   }
 }
 
-/// λ∫(u − ū). The work is that of the moving support; what the springs hold is stored. Where others take
-/// over, these go with their target to the end, but over half of the last step the force on the body was
-/// already that of the others: f Δu/2 is taken off for these and added for those.
-void Loads::apply_supports(MotionState& motion, double time, double dt) {
+/// λ∫(u − ū). The work is that of the moving support; what the springs hold is stored.
+void Loads::apply_supports(MotionState& motion, double time) {
   for (SupportPoint& point : support_points_) {
     const PrescribedSurface& prescribed = prescribed_[point.prescribed];
     const BoundarySide& side = sides_[point.at.side];
     const double length = size_of(
         {side.end.reference.x - side.start.reference.x, side.end.reference.y - side.start.reference.y});
     const double stiffness = prescribed.stiffness * length * point.at.share;
-    const bool changes_hands = point.fresh || !acting_;
-    const Vec2 moved = displacement_at(motion, point.at),
-               speed = changes_hands ? velocity_at(motion, point.at) : Vec2{};
+    const Vec2 moved = displacement_at(motion, point.at);
     std::array<double, 2> force{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (!prescribed.displacement[axis] && !prescribed.velocity[axis]) continue;
@@ -190,12 +169,11 @@ void Loads::apply_supports(MotionState& motion, double time, double dt) {
       force[axis] = -stiffness * error;
       if (!point.fresh)
         work_ += (target - point.last_target[axis]) * (force[axis] + point.last_force[axis]) / 2;
-      if (changes_hands) work_ += (acting_ ? 1 : -1) * force[axis] * (axis == 0 ? speed.x : speed.y) * dt / 2;
       point.last_force[axis] = force[axis];
       point.last_target[axis] = target;
     }
     point.fresh = false;
-    if (acting_) add_on_side(motion, point.at, {force[0], force[1]});
+    add_on_side(motion, point.at, {force[0], force[1]});
   }
 }
 
@@ -213,7 +191,7 @@ void Loads::apply_absorbing(MotionState& motion, double dt) {
     const double shear = -point.shear_impedance * along * length * point.at.share;
     const Vec2 force{normal * tangent.y + shear * tangent.x, -normal * tangent.x + shear * tangent.y};
     work_through(point.worker, force, {speed.x * dt, speed.y * dt});
-    if (acting_) add_on_side(motion, point.at, force);
+    add_on_side(motion, point.at, force);
   }
 }
 

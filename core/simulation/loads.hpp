@@ -6,7 +6,6 @@
 #include "scene/scene.hpp"
 
 #include <array>
-#include <memory>
 #include <vector>
 
 namespace talus {
@@ -16,9 +15,6 @@ namespace talus {
 class Loads {
  public:
   Loads(const Scene& scene, const StageSettings& settings, const Model& model);
-
-  /// From now on other loads act; what the present ones still did and held is booked at the next apply().
-  void replace(Loads next);
 
   /// Adds the loads of a step. Velocities serve the work they have done in the step behind, of length dt.
   void apply(MotionState& motion, const StepSpan& span, double dt);
@@ -76,7 +72,7 @@ class Loads {
   void work_through(Worker& worker, Vec2 force, Vec2 moved);
   void apply_points(MotionState& motion, const StepSpan& span, double dt);
   void apply_surface_loads(MotionState& motion, const StepSpan& span, double dt);
-  void apply_supports(MotionState& motion, double time, double dt);
+  void apply_supports(MotionState& motion, double time);
   void apply_absorbing(MotionState& motion, double dt);
   void add_on_side(MotionState& motion, const SideShare& at, Vec2 force);
   Vec2 displacement_at(const MotionState& motion, const SideShare& at) const;
@@ -89,8 +85,6 @@ class Loads {
   std::vector<SurfacePoint> surface_points_;
   std::vector<SupportPoint> support_points_;
   std::vector<AbsorbingPoint> absorbing_points_;
-  std::unique_ptr<Loads> next_;  ///< takes over at the next apply()
-  bool acting_ = true;           ///< false at the last call of loads that end
   double work_ = 0, stored_ = 0, applied_ = 0;
 };
 

@@ -84,6 +84,15 @@ void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_
                     [](double, double, double, std::span<const Vec2>) { return 0.0; });
 }
 
+void impose_on_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
+                       MotionState& motion) {
+  const CoverRanges& ranges = model.ranges(model.bodies[body]);
+  const std::span<Vec2> velocity(motion.patch_velocity.data() + ranges.patch_begin,
+                                 ranges.patch_end - ranges.patch_begin);
+  replace_supported(model, mass, body, support, motion, velocity,
+                    [](double wanted, double, double, std::span<const Vec2>) { return wanted; });
+}
+
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t index,
                         const Support& support, const StepConditions& conditions, const Update& update,
                         const UpdatedPatches& updated, MotionState& motion, std::vector<Vec2>& at_step,

@@ -81,19 +81,20 @@ void Simulation::State::step(double next_end) {
   ++plan.done;
   ++(settling ? summary.settle_steps : summary.steps);
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
-  begin_due_stages();
+  const double dt = dt_behind;
+  const bool begins = begin_due_stages();
   if (plan.done == plan.steps) {
     make_plan(plan.end < plan.target ? plan.target : next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
     make_plan(plan.target);
   }
-  forces();
+  forces(begins);
   check_step();
   profile.leave();
   if (settling) return;
   remember_deepest();
   // The corners of a body that spins differ in speed by its spin times its width or more.
-  turned += dt_behind * speeds.relative / model.smallest_width;
+  turned += dt * speeds.relative / model.smallest_width;
   if (turned > 1) bring_rotation_up_to_date();
 }
 
@@ -107,7 +108,7 @@ void Simulation::State::begin(double end) {
 }
 
 /// The right-hand side of Eq. 16 and the velocity update.
-void Simulation::State::forces() {
+void Simulation::State::forces(bool stage_begins) {
   to_be_seen = velocities_left = false;
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
@@ -120,7 +121,7 @@ void Simulation::State::forces() {
   const bool may_sleep_now = may_sleep();
   observed = observed || may_sleep_now;
   profile.enter(Phase::contacts);
-  const double interface_work = evaluate_contacts();  // Eqs. 28–48
+  evaluate_contacts();  // Eqs. 28–48
   profile.enter(Phase::loads);
   const Vec2 pull = gravity();
   loads.apply(motion, step_span(), dt_behind);  // Eqs. 19–20
@@ -146,7 +147,7 @@ void Simulation::State::forces() {
                                            patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   check_materials();
-  ledger.book(contact_totals, strain_energy, loads, work, interface_work);
+  ledger.book(contact_totals, strain_energy, loads, work, stage_begins);
   Sleep::Taken taken{};
   if (may_sleep_now) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
@@ -169,12 +170,9 @@ bool Simulation::State::forces_first(const Damping& how) const {
   return how.kind == Damping::Kind::adaptive || (settling && scene.settle->until);
 }
 
-/// Returns the work of a stage that changes the parameters of closed contacts: what they hold and have just
-/// lost with the new ones, less with the old ones.
-double Simulation::State::evaluate_contacts() {
+void Simulation::State::evaluate_contacts() {
   const bool hold_stick = settling && scene.settle->hold_stick;
   const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling, observed};
-  const double before = interfaces_changed ? contacts.with_former_interfaces(model, motion, conditions) : 0;
   contact_totals = contacts.evaluate(model, motion, conditions);
   if (sleep) {
     sleep->wake(contacts.touched(), time, sleeping_parts());
@@ -182,9 +180,6 @@ double Simulation::State::evaluate_contacts() {
   }
   if (plan.done == 0 && !settling) warn_of_thin_ground();  // not where a checkpoint happens to be due
   check_law();
-  const double work = interfaces_changed ? contact_totals.stored + contact_totals.slip_loss - before : 0;
-  interfaces_changed = false;
-  return work;
 }
 
 /// Bonds form where bodies touch as they are drawn; where they hang by them they have come apart a little.
@@ -222,20 +217,26 @@ bool Simulation::State::settled() const {
   return scene.settle->until && summary.settle_steps > 0 && unbalanced_share < *scene.settle->until;
 }
 
-/// Of several that are due at once the last one holds.
-void Simulation::State::begin_due_stages() {
-  if (settling) return;
-  const std::size_t before = stages_begun;
-  while (stages_begun < scene.stages.size() && scene.stages[stages_begun].from <= time * (1 + rounding))
-    ++stages_begun;
-  if (stages_begun == before) return;
-  const StageSettings& next = scene.stages[stages_begun - 1].settings;
+/// Before a stage begins, what acted until then brings bodies to their velocities at t_n, and is booked; with
+/// the stage they go on from there, as at the start of a run.
+bool Simulation::State::begin_due_stages() {
+  if (settling) return false;
+  std::size_t begun = stages_begun;
+  while (begun < scene.stages.size() && scene.stages[begun].from <= time * (1 + rounding)) ++begun;
+  if (begun == stages_begun) return false;
+  const double ahead = std::exchange(plan.dt, 0);
+  forces();
+  plan.dt = ahead;
+  dt_behind = 0;
+  stages_begun = begun;
+  const StageSettings& next = scene.stages[begun - 1].settings;
   if (sleep) sleep->begin_stage(next, time, sleeping_parts());
   enter_stage(next);
-  interfaces_changed = true;
-  loads.replace(Loads(scene, stage, model));
+  loads = Loads(scene, stage, model);
+  impose_at_once(model, mass, stage.supports, motion);
   critical = votes.among(contacts.lightest_neighbours());
   summary.critical_dt = std::min(summary.critical_dt, critical.dt);
+  return true;
 }
 
 /// All but loads, which let go of what they held.

@@ -70,10 +70,9 @@ struct Simulation::State {
   std::vector<BodyMotion> start;
   std::vector<Vec2> start_displacement;  ///< [patch]
   std::size_t stages_begun = 0;
-  bool interfaces_changed = false;  ///< by a stage, for the coming evaluation of contacts
-  Vec2 last_gravity;                ///< m/s², at t_{n−1}
-  double unbalanced_share = 0;      ///< unbalanced over applied force, while settling
-  std::vector<double> rotation;     ///< [body] rad from the shape it is drawn in, followed through full turns
+  Vec2 last_gravity;             ///< m/s², at t_{n−1}
+  double unbalanced_share = 0;   ///< unbalanced over applied force, while settling
+  std::vector<double> rotation;  ///< [body] rad from the shape it is drawn in, followed through full turns
   std::vector<double>
       rotation_at_start;  ///< [body] rad, at t = 0; empty where bodies start as they are drawn
   std::vector<std::uint32_t> monitored_elements;  ///< [monitor] that its point is in, see element_at()
@@ -101,14 +100,14 @@ struct Simulation::State {
   double allowed_dt() const;
   void refuse_uncountable_steps() const;
 
-  void forces();
+  void forces(bool stage_begins = false);
   bool forces_first(const Damping& how) const;
-  void begin_due_stages();
+  bool begin_due_stages();
   void enter_stage(const StageSettings& next);
   Vec2 gravity() const;
   StepSpan step_span() const;
   bool settled() const;
-  double evaluate_contacts();
+  void evaluate_contacts();
   void touch_as_drawn();
   bool may_sleep() const;
   Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion}; }

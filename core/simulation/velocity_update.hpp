@@ -24,9 +24,7 @@ inline double impose(const std::optional<double>& wanted, double mass, double va
   const double target = conditions.supports_driven ? *wanted : 0;
   const double reaction = mass * (target - value) / update.gain;
   work.external_work += reaction * value_before * conditions.dt_behind / 2;
-  // Of a velocity that jumps all is booked, Δ(½mv²), however the two steps share the time of the impulse.
-  const double jump = (target - value_before) * (conditions.dt_behind - conditions.dt_ahead);
-  work.external_work_ahead += reaction * (target * conditions.dt_ahead / 2 + jump / 4);
+  work.external_work_ahead += reaction * target * conditions.dt_ahead / 2;
   return target;
 }
 
@@ -44,6 +42,10 @@ inline double share_of_after(const StepConditions& conditions) {
 /// Takes what supports prescribe out of accelerations of the patches of a body of many elements.
 void leave_out_supported(const Model& model, const PatchMass& mass, std::uint32_t body,
                          const Support& support, const MotionState& motion, std::span<Vec2> acceleration);
+
+/// Gives the patches of a body at once the motions that a support wants.
+void impose_on_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,
+                       MotionState& motion);
 
 /// The patches of a body of many elements that are left.
 void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t body, const Support& support,

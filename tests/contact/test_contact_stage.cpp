@@ -376,34 +376,6 @@ TEST_CASE("a state keeps the slots that pairs have", "[contact][stage]") {
   tally::contacts = 1;
 }
 
-TEST_CASE("a look with the former interfaces leaves nothing behind for the step", "[contact][stage]") {
-  WorkingScene text;
-  text.interface = combed().interface;
-  text.bodies = box("base", -1, -1, 2, 0, R"("fixed": true)") + ", " + box("block", 0, 0, 1, 1);
-  HeldStage stage(text, shipped_registry()), plain(text, shipped_registry());
-  for (HeldStage* each : {&stage, &plain}) {
-    each->contacts.set_interfaces(each->scene.interface_values);
-    each->motion.bodies[1].u.y = -1e-3;
-    each->evaluate();
-    each->motion.bodies[1].velocity.x = 0.05;  // sheared: there is something to remember
-    each->motion.bodies[1].u.x = 5e-5;
-    each->evaluate_near();
-    each->motion.bodies[1].velocity.x = 0;
-    each->motion.bodies[1].u.y = 2e-3;
-    each->evaluate_near();
-    REQUIRE(each->pair(0, 1).contact_count == 0);
-    each->motion.bodies[1].u.y = -1e-3;
-    each->motion.move_boundary(each->model);
-    each->contacts.find_pairs(each->model, each->motion, 1e-3, {10, 10, 10});
-  }
-  stage.contacts.with_former_interfaces(stage.model, stage.motion, {1e-3, true, false});
-  const ContactTotals after_look = stage.evaluate_near(), due = plain.evaluate_near();
-  CHECK(due.stored > 0);
-  CHECK(after_look.stored == due.stored);
-  CHECK(after_look.slip_loss == due.slip_loss);
-  CHECK(stage.history(0, 1) == plain.history(0, 1));
-}
-
 TEST_CASE("a fixed body is master, and between moving bodies both are or the priority decides",
           "[contact][stage]") {
   WorkingScene text;
