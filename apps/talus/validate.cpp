@@ -68,9 +68,13 @@ void print_covers(const Scene& scene, const Simulation& simulation) {
 void print_time(const Scene& scene, const Simulation& simulation) {
   const double critical = simulation.critical_dt();
   const double dt = scene.time.dt.value_or(simulation.automatic_dt());
-  print_row("time",
-            fmt::format("to {:.6g} s, step {:.6g} s ({}): {:.3g} of critical, {:.6g} s", scene.time.end, dt,
-                        scene.time.dt ? "as given" : "automatic", dt / critical, critical));
+  const std::string step =
+      std::isfinite(dt) ? fmt::format("step {:.6g} s ({})", dt, scene.time.dt ? "as given" : "automatic")
+                        : "steps up to outputs or what speed allows";
+  const std::string bound = std::isfinite(critical)
+                                ? fmt::format("{:.3g} of critical, {:.6g} s", dt / critical, critical)
+                                : "nothing swings, so none is critical";
+  print_row("time", fmt::format("to {:.6g} s, {}: {}", scene.time.end, step, bound));
   if (!scene.time.dt && std::isfinite(dt)) print_row("limited by", simulation.automatic_limiter());
   if (scene.settle) {
     print_row("settle",

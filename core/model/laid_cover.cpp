@@ -46,7 +46,7 @@ class Sink final : public CoverSink {
 
   void scale_strain_mass(double scale) noexcept override { cover.strain_mass_scale = scale; }
   void make_rigid() noexcept override { cover.rigid = true; }
-  void refuse(const char* why) noexcept override { refusal = why; }
+  void refuse(const char* why) noexcept override { refusal = words_of_plugin(why != nullptr ? why : ""); }
 
   LaidCover cover;
   std::string refusal;
@@ -100,6 +100,66 @@ struct GivenShape {
   BodyShape shape{};
 };
 
+/// The sides that a boundary follows, [side] as CoverSink::add_boundary_vertex() numbers them.
+std::vector<std::pair<Vec2, Vec2>> sides_of(const GivenShape& given) {
+  std::vector<std::pair<Vec2, Vec2>> sides;
+  const auto append = [&](const std::vector<double>& x, const std::vector<double>& y,
+                          const std::vector<std::uint32_t>& start, bool closed) {
+    for (std::size_t line = 0; line + 1 < start.size(); ++line) {
+      for (std::uint32_t i = start[line]; i < start[line + 1]; ++i) {
+        const bool last = i + 1 == start[line + 1];
+        const std::uint32_t next = !last ? i + 1 : closed ? start[line] : i;
+        sides.push_back({{x[i], y[i]}, {x[next], y[next]}});
+      }
+    }
+  };
+  append(given.x, given.y, given.ring_start, true);
+  append(given.line_x, given.line_y, given.line_start, false);
+  return sides;
+}
+
+/// m, of a point from a segment.
+double distance_from(Vec2 p, const std::pair<Vec2, Vec2>& side) {
+  const auto [from, to] = side;
+  const double dx = to.x - from.x, dy = to.y - from.y, square = dx * dx + dy * dy;
+  const double along = ((p.x - from.x) * dx + (p.y - from.y) * dy) / square;
+  const double lever = square > 0 ? std::clamp(along, 0.0, 1.0) : 0;
+  return std::hypot(p.x - from.x - lever * dx, p.y - from.y - lever * dy);
+}
+
+/// Contact sees nothing of a body but its boundary: it has to be where the body is, all of it, and the right
+/// way round.
+std::string fault_of_boundary(const LaidCover& cover, const GivenShape& given) {
+  if (cover.loops.empty()) return "it has several elements and gave no boundary";
+  const std::vector<std::pair<Vec2, Vec2>> sides = sides_of(given);
+  const auto [left, right] = std::minmax_element(given.x.begin(), given.x.end());
+  const auto [low, high] = std::minmax_element(given.y.begin(), given.y.end());
+  const double near = 1e-6 * std::max(*right - *left, *high - *low);
+  double area = 0;
+  for (const auto& loop : cover.loops) {
+    if (loop.size() < 3) return fmt::format("a loop of its boundary has {} vertices", loop.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const LaidCover::BoundaryVertex &vertex = loop[i], &next = loop[i + 1 == loop.size() ? 0 : i + 1];
+      if (vertex.element >= cover.elements.size() || vertex.side >= sides.size())
+        return fmt::format("a boundary vertex names element {} of {} and side {} of {}", vertex.element,
+                           cover.elements.size(), vertex.side, sides.size());
+      area += (vertex.at.x * next.at.y - vertex.at.y * next.at.x) / 2;
+      const double off =
+          std::max(distance_from(vertex.at, sides[vertex.side]), distance_from(next.at, sides[vertex.side]));
+      if (!(off <= near))
+        return fmt::format(
+            "its boundary at ({:.6g}, {:.6g}) m from the centroid is {:.3g} m off side {}, "
+            "which it is to follow",
+            vertex.at.x, vertex.at.y, off, vertex.side);
+    }
+  }
+  if (!(std::abs(area - given.shape.moments.area) <= 1e-6 * given.shape.moments.area)) {
+    return fmt::format("its boundary surrounds {:.12g} m2, the body has {:.12g} m2", area,
+                       given.shape.moments.area);
+  }
+  return "";
+}
+
 /// What makes it no cover of the body, in words; "" if nothing.
 std::string fault_of(const LaidCover& cover, const GivenShape& given) {
   if (cover.rigid) return "";
@@ -125,16 +185,7 @@ std::string fault_of(const LaidCover& cover, const GivenShape& given) {
         cover.strain_mass_scale);
   }
   if (block) return "";
-  if (cover.loops.empty()) return "it has several elements and gave no boundary";
-  const std::size_t sides = given.x.size() + given.line_x.size();
-  for (const auto& loop : cover.loops) {
-    if (loop.size() < 3) return fmt::format("a loop of its boundary has {} vertices", loop.size());
-    for (const LaidCover::BoundaryVertex& vertex : loop) {
-      if (vertex.element >= cover.elements.size() || vertex.side >= sides)
-        return fmt::format("a boundary vertex names element {} of {} and side {} of {}", vertex.element,
-                           cover.elements.size(), vertex.side, sides);
-    }
-  }
+  if (const std::string fault = fault_of_boundary(cover, given); !fault.empty()) return fault;
   std::vector<char> is_steadied(cover.patches.size(), 0);
   for (const LaidCover::Steadied& one : cover.steadied) {
     const auto known = [&](std::uint32_t patch) { return patch < cover.patches.size(); };

@@ -1,5 +1,7 @@
 #include "plugin/refusal.hpp"
 
+#include "geometry/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -184,6 +186,19 @@ std::optional<std::string> reason_to_refuse(const Component& component) {
   }
   return reason_in_table("interface parameter", component.interface_parameters,
                          component.interface_parameter_count, beside_interface_parameters);
+}
+
+std::string words_of_plugin(std::string_view said) {
+  std::string words(said);
+  for (char& c : words) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  if (!printable(words)) {
+    for (char& c : words) {
+      if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+    }
+  }
+  return words.find_first_not_of(' ') == std::string::npos ? "it does not say why" : words;
 }
 
 }  // namespace talus

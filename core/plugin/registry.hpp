@@ -90,6 +90,10 @@ std::filesystem::path installation_prefix();
 /// installation this program belongs to.
 std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line);
 
+/// What a plugin says of itself, fit for a terminal: in one line, without control characters; where it says
+/// nothing, that.
+std::string words_of_plugin(std::string_view said);
+
 /// Owns an object made by a plugin, destroyed by the same plugin.
 template <class Interface>
 using Made = std::unique_ptr<Interface, void (*)(void*) noexcept>;
@@ -100,7 +104,8 @@ Made<Interface> make(const RegisteredComponent& entry, std::span<const double> v
   char error[512] = "";
   void* object = entry.component->create(values.data(), error, sizeof error);
   if (object == nullptr) {
-    throw PluginError(entry.file.string() + ": '" + entry.component->name + "' could not be made: " + error);
+    throw PluginError(entry.file.string() + ": '" + entry.component->name +
+                      "' could not be made: " + words_of_plugin(error));
   }
   return Made<Interface>(static_cast<Interface*>(object), entry.component->destroy);
 }

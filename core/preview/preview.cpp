@@ -52,6 +52,25 @@ void look_for_slivers(const Simulation& simulation, Preview& preview) {
       count, widths.size(), count == 1 ? "is" : "are", scene.bodies[widths[0].second].name, widths[0].first));
 }
 
+/// Row sums resist turning more than the body does, by the square of an element over its size.
+void look_for_inertia(const Simulation& simulation, Preview& preview) {
+  constexpr double worth_a_word = 1.05;
+  const Scene& scene = simulation.scene();
+  std::size_t count = 0, worst = 0;
+  double most = worth_a_word;
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    const double share = scene.bodies[body].fixed ? 1 : simulation.inertia_share(body);
+    if (share > worth_a_word) ++count;
+    if (share > most) most = share, worst = body;
+  }
+  if (count == 0) return;
+  preview.warnings.push_back(
+      fmt::format("{} on elements too coarse to turn as {} should: '{}' has {:.3g} times its moment of "
+                  "inertia; take smaller elements where it spins, rolls or topples",
+                  count == 1 ? "a body is" : fmt::format("{} bodies are", count), count == 1 ? "it" : "they",
+                  scene.bodies[worst].name, most));
+}
+
 void look_at_start(const Simulation& simulation, Preview& preview) {
   preview.pairs = simulation.pair_count();
   for (const Contact& contact : simulation.contacts()) {
@@ -120,6 +139,7 @@ Preview preview(Simulation& simulation, double trial_seconds) {
   measure_edges(scene, preview);
   compare_stiffness(simulation, preview);
   look_for_slivers(simulation, preview);
+  look_for_inertia(simulation, preview);
   bool stops = false;
   try {
     simulation.advance();

@@ -48,6 +48,9 @@ Preview preview(Simulation& simulation, double trial_seconds);
 /// What a reviewer would raise about a scene that can be run with steps of `dt`, s.
 std::vector<std::string> review(const Scene& scene, double dt);
 
+/// Asks about values of materials and interfaces that look as if they were given in other units.
+void question_units(const Scene& scene, std::vector<std::string>& raised);
+
 /// Softest and stiffest of the interfaces between surfaces that can meet, by E/h; neither where no body
 /// deforms or the law reads no normal_stiffness.
 void compare_stiffness(const Simulation& simulation, Preview& preview);

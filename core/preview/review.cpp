@@ -139,6 +139,7 @@ std::vector<std::string> review(const Scene& scene, double dt) {
   review_output(scene, dt, raised);
   review_sleep(scene, raised);
   review_use(scene, raised);
+  question_units(scene, raised);
   review_discontinuities(scene, raised);
   return raised;
 }

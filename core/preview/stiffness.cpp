@@ -1,4 +1,5 @@
 #include "preview/preview.hpp"
+#include "preview/values.hpp"
 #include "scene/components.hpp"
 #include "scene/surfaces.hpp"
 
@@ -8,14 +9,6 @@
 
 namespace talus {
 namespace {
-
-/// Where a table holds the key.
-std::optional<std::size_t> position_of(std::span<const Parameter> parameters, std::string_view key) {
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].key == key) return i;
-  }
-  return std::nullopt;
-}
 
 /// E of a body that deforms, if its material goes by that name.
 std::optional<double> young_of(const Scene& scene, const SceneBody& body) {

@@ -88,8 +88,9 @@ class Expander {
   void take(const Json& written, const std::string& pointer) {
     const std::size_t mistakes_before = mistakes_.count();
     Section section(&written, pointer, mistakes_);
-    const std::string name = section.text("name", "what the names of the blocks begin with");
-    const bool own_name = !name.empty() && check_own_name(section, name);
+    const std::optional<std::string> given = take_name(section, "what the names of the blocks begin with");
+    const std::string name = given.value_or("");
+    const bool own_name = given && is_own(section, name);
     const Shape domain = read_domain(section);
     Joints joints = read_joints(section, folder_);
     const double smallest_area = section.value(table::of(table::blocks, "smallest_area"));
@@ -122,8 +123,7 @@ class Expander {
   Expansion result;
 
  private:
-  bool check_own_name(Section& section, const std::string& name) {
-    check_name(name, section.pointer_to("name"), mistakes_);
+  bool is_own(Section& section, const std::string& name) {
     const auto [known, is_new] = names_.emplace(name, section.pointer());
     if (is_new) return true;
     mistakes_.add(section.pointer_to("name"),

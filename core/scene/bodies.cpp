@@ -133,9 +133,8 @@ void read_geometry(Reading& reading, Section& section, SceneBody& body) {
 SceneBody read_body(Reading& reading, Section& section, const Choice& scene_cover, bool scene_cover_good) {
   SceneBody body{};
   Mistakes& mistakes = reading.mistakes;
-  body.name = section.text("name", "the name of the body");
-  if (!body.name.empty()) {
-    check_name(body.name, section.pointer_to("name"), mistakes);
+  if (const auto name = take_name(section, "the name of the body")) {
+    body.name = *name;
     const auto number = static_cast<std::uint32_t>(reading.scene.bodies.size());
     const auto [known, is_new] = reading.body_index.emplace(body.name, number);
     if (!is_new) {

@@ -3,15 +3,13 @@
 #include "output/whole_file.hpp"
 #include "scene/files.hpp"
 #include "scene/nearest.hpp"
+#include "scene/plain_number.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <string_view>
-#include <system_error>
 
 namespace talus {
 namespace {
@@ -37,14 +35,6 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     line.remove_prefix(comma + 1);
   }
   return fields;
-}
-
-std::optional<double> number_of(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-  const bool good = error == std::errc() && end == field.data() + field.size() && std::isfinite(number);
-  return good ? std::optional(number) : std::nullopt;
 }
 
 /// A name as it stands between commas, perhaps in quotes.
@@ -85,7 +75,7 @@ class ColumnReader {
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() > most_columns) return fmt::format("expected at most {} columns", most_columns);
     const bool any_number =
-        std::any_of(fields.begin(), fields.end(), [](auto one) { return number_of(one); });
+        std::any_of(fields.begin(), fields.end(), [](auto one) { return plain_number(one); });
     if (remark || (columns_.at.empty() && !any_number)) return take_head(fields);
     if (columns_.at.empty()) {
       if (std::string problem = choose(fields.size()); !problem.empty()) return problem;
@@ -136,10 +126,10 @@ class ColumnReader {
 
   std::string take_numbers(std::string_view at, std::string_view value) {
     for (const std::string_view field : {at, value}) {
-      if (!number_of(field))
+      if (!plain_number(field))
         return fmt::format("{} is no finite number", shown(Json(std::string(field.substr(0, 100)))));
     }
-    const double where = *number_of(at);
+    const double where = *plain_number(at);
     if (!columns_.at.empty() && !(where > columns_.at.back())) {
       return fmt::format("{} does not come after {}: the first column must rise strictly", where,
                          columns_.at.back());
@@ -147,7 +137,7 @@ class ColumnReader {
     if (columns_.at.size() == most_points)
       return fmt::format("more than {} points, the most that are read", most_points);
     columns_.at.push_back(where);
-    columns_.value.push_back(*number_of(value));
+    columns_.value.push_back(*plain_number(value));
     return {};
   }
 

@@ -42,8 +42,9 @@ void check_constructor(Reading& reading, const Choice& choice, const std::string
   if (void* made = component.create(choice.values.data(), error, sizeof error)) {
     component.destroy(made);
   } else {
-    reading.mistakes.add(pointer, fmt::format("{} \"{}\" refuses its parameters: {}",
-                                              kind_in_words(component.kind), component.name, error));
+    reading.mistakes.add(pointer,
+                         fmt::format("{} \"{}\" refuses its parameters: {}", kind_in_words(component.kind),
+                                     component.name, words_of_plugin(error)));
   }
 }
 

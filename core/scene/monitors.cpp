@@ -54,9 +54,8 @@ std::vector<std::string> read_quantities(Reading& reading, Section& section) {
 
 Monitor read_monitor(Reading& reading, Section& section) {
   Monitor monitor{};
-  monitor.name = section.text("name", "the name of the monitor");
-  if (!monitor.name.empty()) {
-    check_name(monitor.name, section.pointer_to("name"), reading.mistakes);
+  if (const auto name = take_name(section, "the name of the monitor")) {
+    monitor.name = *name;
     const auto number = static_cast<std::uint32_t>(reading.scene.monitors.size());
     const auto [known, is_new] = reading.monitor_index.emplace(monitor.name, number);
     if (!is_new) {

@@ -1,6 +1,7 @@
 #include "scene/overrides.hpp"
 
 #include "scene/nearest.hpp"
+#include "scene/plain_number.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +12,11 @@
 namespace talus {
 namespace {
 
-/// The value as JSON, or as the text that it is.
+/// The value as JSON, as a number, or as the text that it is.
 std::optional<Json> value_of(const std::string& written, std::string& problem) {
   ParsedText parsed = parse_json(written, {});
   if (parsed.complete && parsed.mistakes.empty()) return std::move(parsed.value);
+  if (const std::optional<double> number = plain_number(written)) return Json(*number);
   const std::size_t first = written.find_first_not_of(" \t");
   const bool meant_as_json =
       first != std::string::npos && std::string_view("{[\"").find(written[first]) != std::string_view::npos;

@@ -39,6 +39,14 @@ bool check_name(const std::string& name, const std::string& pointer, Mistakes& m
   return good;
 }
 
+std::optional<std::string> take_name(Section& section, const std::string& what) {
+  const std::size_t mistakes_before = section.mistakes().count();
+  std::string name = section.text("name", what);
+  if (section.mistakes().count() != mistakes_before) return std::nullopt;
+  check_name(name, section.pointer_to("name"), section.mistakes());
+  return name;
+}
+
 std::optional<std::uint32_t> take_reference(Section& section, const std::string& key, const std::string& what,
                                             const std::map<std::string, std::uint32_t>& index) {
   const std::size_t mistakes_before = section.mistakes().count();

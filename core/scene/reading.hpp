@@ -40,6 +40,9 @@ struct Reading {
 /// A name that can stand in JSON pointers, lists and column heads. Notes a mistake otherwise.
 bool check_name(const std::string& name, const std::string& pointer, Mistakes& mistakes);
 
+/// The name of the section, of `what`; nothing where it is missing or no text, which is noted.
+std::optional<std::string> take_name(Section& section, const std::string& what);
+
 /// The index of what `key` names; notes the mistake of an absent, mistyped or unknown name.
 std::optional<std::uint32_t> take_reference(Section& section, const std::string& key, const std::string& what,
                                             const std::map<std::string, std::uint32_t>& index);

@@ -85,8 +85,10 @@ void Simulation::State::check_law() const {
 }
 
 /// Elements of several materials may be in one sum: the names of all are as near as it goes.
-void Simulation::State::check_materials() const {
-  if (std::isfinite(strain_energy.stored + strain_energy.dissipated)) return;
+/// A stress that is no number shows in the kinetic energy first: loads of contacts were looked at.
+void Simulation::State::check_materials(double kinetic) const {
+  const bool strains = std::isfinite(strain_energy.stored + strain_energy.dissipated);
+  if (strains && std::isfinite(kinetic)) return;
   std::string names;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (model.material_element_start[m] == model.material_element_start[m + 1]) continue;
@@ -94,10 +96,11 @@ void Simulation::State::check_materials() const {
     names += fmt::format("{}'{}' of {}", names.empty() ? "" : ", ", component.component->name,
                          component.file.string());
   }
-  throw NumericalTrouble(fmt::format(
-      "the strain energy is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
-      "take a smaller time step, or mend the material: {}",
-      time, plan.dt, critical.dt, names));
+  throw NumericalTrouble(
+      fmt::format("the {} energy is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
+                  "take a smaller time step{}{}",
+                  strains ? "kinetic" : "strain", time, plan.dt, critical.dt,
+                  names.empty() ? "" : ", or mend the material: ", names));
 }
 
 void Simulation::State::check_step() const {

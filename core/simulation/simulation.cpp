@@ -314,6 +314,18 @@ std::vector<std::uint32_t> Simulation::fragments(std::size_t body) const {
   return fragments_of(state_->model, index);
 }
 
+double Simulation::inertia_share(std::size_t body) const {
+  const State& s = *state_;
+  const std::uint32_t inside = s.numbering.inside(static_cast<std::uint32_t>(body));
+  if (!s.model.covered(inside)) return 1;
+  const Body& laid = s.model.bodies[inside];
+  const CoverRanges& ranges = s.model.ranges(laid);
+  std::vector<Vec2> spin;
+  for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p)
+    spin.push_back({-s.model.patch_star[p].y, s.model.patch_star[p].x});
+  return s.mass.product(s.model, inside, spin, spin) / laid.inertia();
+}
+
 std::vector<SliverEffect> Simulation::slivers() const {
   std::vector<SliverEffect> effects = sliver_effects(state_->scene, state_->model);
   for (SliverEffect& effect : effects) effect.body = state_->numbering.outside(effect.body);

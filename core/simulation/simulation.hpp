@@ -184,6 +184,9 @@ class Simulation {
   std::vector<std::uint32_t> distinct_points(std::size_t body) const;
   std::size_t patch_count() const;
   std::size_t element_count() const;
+  /// What resists the turning of a body as it is drawn, over its moment of inertia; more than 1 on many
+  /// elements, whose masses are row sums.
+  double inertia_share(std::size_t body) const;
   std::vector<SliverEffect> slivers() const;  ///< of the bodies that have any
   std::size_t pair_count() const;             ///< of bodies that are near each other, found last
   std::size_t touching_pair_count() const;    ///< of those that the last step found in contact

@@ -146,7 +146,7 @@ void Simulation::State::forces(bool stage_begins) {
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
                                            patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
-  check_materials();
+  check_materials(work.kinetic);
   ledger.book(contact_totals, strain_energy, loads, work, stage_begins);
   Sleep::Taken taken{};
   if (may_sleep_now) {

@@ -117,7 +117,7 @@ struct Simulation::State {
   void check_shapes() const;
   void refuse_inside_out() const;
   void check_law() const;
-  void check_materials() const;
+  void check_materials(double kinetic) const;
   void check_step() const;
   void check_balance();
   void warn_of_large_step();

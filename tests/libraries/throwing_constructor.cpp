@@ -1,4 +1,5 @@
-// Laws whose constructors throw: one an exception with words, one a plain number.
+// Laws whose constructors throw: exceptions with words, with words for no terminal and with none, and a plain
+// number.
 #include "descriptor.hpp"
 
 #include <stdexcept>
@@ -12,14 +13,27 @@ class ThrowsWords final : public SilentLaw {
   }
 };
 
+class ThrowsControls final : public SilentLaw {
+ public:
+  explicit ThrowsControls(const double* values) : SilentLaw(values) {
+    throw std::invalid_argument("\x1b[31mtoo\nred\xff");
+  }
+};
+
+class ThrowsSilence final : public SilentLaw {
+ public:
+  explicit ThrowsSilence(const double* values) : SilentLaw(values) { throw std::invalid_argument(""); }
+};
+
 class ThrowsNumber final : public SilentLaw {
  public:
   explicit ThrowsNumber(const double* values) : SilentLaw(values) { throw 42; }
 };
 
-constexpr talus::Component components[] = {law<ThrowsWords>("throws_words"),
-                                           law<ThrowsNumber>("throws_number")};
+constexpr talus::Component components[] = {
+    law<ThrowsWords>("throws_words"), law<ThrowsControls>("throws_controls"),
+    law<ThrowsSilence>("throws_silence"), law<ThrowsNumber>("throws_number")};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 2);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 4);

@@ -20,10 +20,14 @@ namespace {
 enum class Flaw {
   none,
   refuses,
+  refuses_without_words,
   empty,
   unknown_patch,
   half_the_area,
   no_boundary,
+  boundary_elsewhere,
+  boundary_reversed,
+  boundary_without_corner,
   short_loop,
   unknown_element,
   unknown_side,
@@ -37,7 +41,8 @@ class FlawedCover final : public CoverBuilder {
  public:
   void build(const BodyShape& body, CoverSink& sink) const noexcept override {
     if (flaw == Flaw::refuses) sink.refuse("squares are too plain");
-    if (flaw == Flaw::refuses || flaw == Flaw::empty) return;
+    if (flaw == Flaw::refuses_without_words) sink.refuse(nullptr);
+    if (flaw == Flaw::refuses || flaw == Flaw::refuses_without_words || flaw == Flaw::empty) return;
     for (std::uint32_t i = 0; i < 4; ++i) sink.add_patch(body.outline.x[i], body.outline.y[i]);
     add_half(body, sink, {0, 1, 2}, {0, 1, flaw == Flaw::unknown_patch ? 9U : 2U});
     if (flaw != Flaw::half_the_area) add_half(body, sink, {0, 2, 3}, {0, 2, 3});
@@ -52,11 +57,16 @@ class FlawedCover final : public CoverBuilder {
       sink.steady_patch(3, to, weights, 1);
     }
     if (flaw == Flaw::no_boundary) return;
-    const std::uint32_t corners = flaw == Flaw::short_loop ? 2 : 4;
-    for (std::uint32_t i = 0; i < corners; ++i) {
+    const std::uint32_t corners = flaw == Flaw::short_loop                ? 2
+                                  : flaw == Flaw::boundary_without_corner ? 3
+                                                                          : 4;
+    const double aside = flaw == Flaw::boundary_elsewhere ? 10 : 0;
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const std::uint32_t i = flaw == Flaw::boundary_reversed ? 3 - k : k;
       const std::uint32_t element = flaw == Flaw::unknown_element ? 2 : i < 2 ? 0 : 1;
-      sink.add_boundary_vertex(body.outline.x[i], body.outline.y[i], element,
-                               flaw == Flaw::unknown_side ? 4 : i);
+      const std::uint32_t side = flaw == Flaw::boundary_reversed ? (i + 3) % 4 : i;
+      sink.add_boundary_vertex(body.outline.x[i] + aside, body.outline.y[i], element,
+                               flaw == Flaw::unknown_side ? 4 : side);
     }
     sink.close_boundary_loop();
   }
@@ -115,6 +125,11 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
                 {Flaw::unknown_patch, "an element names patch 9 of 4"},
                 {Flaw::half_the_area, "its elements have an area of 0.5 m2, the body has 1 m2"},
                 {Flaw::no_boundary, "it has several elements and gave no boundary"},
+                {Flaw::boundary_elsewhere,
+                 "its boundary at (9.5, -0.5) m from the centroid is 10 m off side 0, which it is to follow"},
+                {Flaw::boundary_reversed, "its boundary surrounds -1 m2, the body has 1 m2"},
+                {Flaw::boundary_without_corner,
+                 "its boundary at (0.5, 0.5) m from the centroid is 1 m off side 2, which it is to follow"},
                 {Flaw::short_loop, "a loop of its boundary has 2 vertices"},
                 {Flaw::unknown_element, "a boundary vertex names element 2 of 2 and side 0 of 4"},
                 {Flaw::unknown_side, "a boundary vertex names element 0 of 2 and side 4 of 4"},
@@ -130,4 +145,5 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
 TEST_CASE("A body that its cover refuses is told with the cover's own words", "[model][cover]") {
   CHECK(refusal_with<SceneError>(Flaw::refuses) ==
         "working.json: /bodies/0: body 'square' cannot have the cover 'flawed': squares are too plain");
+  CHECK_THAT(refusal_with<SceneError>(Flaw::refuses_without_words), Contains("it does not say why"));
 }

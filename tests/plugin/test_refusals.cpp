@@ -99,6 +99,11 @@ TEST_CASE("What a constructor throws becomes words with the file and the compone
   const std::string file = library("throwing_constructor").string();
   CHECK_THROWS_WITH(make<ContactModel>(*words, {}),
                     file + ": 'throws_words' could not be made: the two stiffnesses contradict each other");
+  const auto other = [&](const char* name) { return *registry.find(ComponentKind::contact_model, name); };
+  CHECK_THROWS_WITH(make<ContactModel>(other("throws_controls"), {}),
+                    file + ": 'throws_controls' could not be made:  [31mtoo red?");
+  CHECK_THROWS_WITH(make<ContactModel>(other("throws_silence"), {}),
+                    file + ": 'throws_silence' could not be made: it does not say why");
   CHECK_THROWS_WITH(
       make<ContactModel>(*number, {}),
       Contains(file + ": 'throws_number' could not be made: ") && Contains("no std::exception"));

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 using namespace talus;
@@ -135,6 +137,44 @@ TEST_CASE("A reviewer asks about bodies that are thin beside the others", "[prev
   CHECK_FALSE(warned(text, "thinner"));
   text.bodies += "," + box("foil", 7, 2, 8, 2.0005);
   CHECK(warned(text, "1 of 4 bodies that move is thinner than a thousandth of most, 'foil' the thinnest"));
+}
+
+TEST_CASE("A reviewer asks about values that look as if they were in other units", "[preview]") {
+  WorkingScene text = resting();
+  for (const char* words : {"t/m3", "GPa", "coefficient", "go through"}) CHECK_FALSE(warned(text, words));
+  text.material = R"("density": 2.3, "model": "linear_elastic", "young_modulus": 10, "poisson_ratio": 0.2)";
+  CHECK(warned(text, "is 2.3 kg/m3: is it given in t/m3?"));
+  CHECK(warned(text, "is 10 Pa: is it given in MPa or GPa?"));
+  text = resting();
+  text.interface = R"("normal_stiffness": 0, "tangential_stiffness": 1e9, "friction_angle": 0.6,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  CHECK(warned(text,
+               "friction_angle of /interfaces/0 is 0.6 degrees: is it a coefficient? that would be "
+               "30.96 degrees"));
+  CHECK(warned(text, "normal_stiffness of /interfaces/0 is 0"));
+  text.bodies = box("top", 0.5, 2, 1.5, 3);  // which meets nothing
+  CHECK_FALSE(warned(text, "normal_stiffness"));
+}
+
+TEST_CASE("A reviewer asks about elements too coarse to turn as their body does", "[preview]") {
+  const auto on = [](double size) {
+    WorkingScene text = resting();
+    text.bodies = box("base", 0, 0, 2, 2, R"("fixed": true)") + "," +
+                  box("spins", 0, 2, 1, 3,
+                      fmt::format(R"("angular_velocity": 90, "cover": {{"model": "hexagonal", "size": {},
+                                     "slivers": "keep"}})",
+                                  size));
+    return text;
+  };
+  // Row sums of equilateral triangles of side h add m h²/4: 1.5 (h/L)² of the inertia of a square.
+  for (const double size : {0.5, 0.25, 0.1}) {
+    CAPTURE(size);
+    const Simulation simulation(monitored(on(size)), {});
+    CHECK(simulation.inertia_share(0) == 1);
+    CHECK(simulation.inertia_share(1) == Approx(1 + 1.5 * size * size).epsilon(1e-2));
+  }
+  CHECK(warned(on(0.25), "'spins' has 1.09 times its moment of inertia"));
+  CHECK_FALSE(warned(on(0.1), "moment of inertia"));
 }
 
 TEST_CASE("A reviewer asks about intervals that do not fit", "[preview]") {

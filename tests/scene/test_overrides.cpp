@@ -27,6 +27,19 @@ TEST_CASE("Overrides write numbers, words and lists before validation", "[scene]
   CHECK(scene.title == "two words");
 }
 
+TEST_CASE("a --set takes numbers that JSON does not know", "[scene]") {
+  for (const auto& [written, due] :
+       {std::pair{".5", 0.5}, {"+2", 2.0}, {"3.", 3.0}, {"-.25e1", -2.5}, {"+.5E-1", 0.05}}) {
+    CAPTURE(written);
+    CHECK(sample::read(sample::good, set({{"/gravity/0", written}})).gravity.x == due);
+  }
+  for (const char* written : {"+", ".", "1-2", "+-1", "2..5", "1e", "++2"}) {
+    CAPTURE(written);
+    CHECK(sample::mistakes(sample::good, set({{"/gravity/0", written}})).size() == 1);
+    CHECK(sample::read(sample::good, set({{"/title", written}})).title == written);
+  }
+}
+
 TEST_CASE("of two --set for one value the later counts", "[scene]") {
   CHECK(sample::read(sample::good, set({{"/time/end", "1"}, {"/time/end", "2"}})).time.end == 2);
 }
