@@ -8,6 +8,7 @@
 #include "output/whole_file.hpp"
 #include "picture/chart.hpp"
 #include "safety/collapse.hpp"
+#include "safety/mechanism.hpp"
 #include "scene/nearest.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
@@ -162,8 +163,9 @@ Usage usage_of_safety() {
       "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and\n"
       "of materials that have them, are divided by a factor until the scene collapses, by bisection, each\n"
       "time from the same settled geometry and for as long as the scene lasts, or up to eight times as long\n"
-      "where that does not tell. Writes safety.csv and safety.svg to a folder: out/<scene name>-safety\n"
-      "unless --out says otherwise. Pore pressure and bolts are not modelled.",
+      "where that does not tell. Writes safety.csv, safety.svg and how it fails, mechanism.svg, to a "
+      "folder:\n"
+      "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
       "SCENE",
       "  talus safety scenes/stick_31deg.json\n"
       "  talus safety slope.json --tolerance 0.002 --set /time/end=5\n"};
@@ -206,6 +208,8 @@ int safety_command(const Words& words) {
   const Safety safety = factor_of_safety(scene, settings);
   write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
   write_whole_file(folder / "safety.svg", safety_svg(safety));
+  if (const std::string mechanism = mechanism_svg(scene, safety); !mechanism.empty())
+    write_whole_file(folder / "mechanism.svg", mechanism);
   say_result(scene, safety);
   fmt::print("results in {}\n", folder.string());
   return safety.interrupted ? exit_code::interrupted : exit_code::ok;

@@ -23,9 +23,9 @@ bool is_frame(const fs::path& file) {
 
 std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  for (const char* name :
-       {"history.csv", "resolved.json", "run.json", "frames.pvd", "energy.csv", "safety.csv", "safety.svg",
-        "report.html", "compare.csv", "compare.json", "compare_reference.csv", checkpoint_name}) {
+  for (const char* name : {"history.csv", "resolved.json", "run.json", "frames.pvd", "energy.csv",
+                           "safety.csv", "safety.svg", "mechanism.svg", "report.html", "compare.csv",
+                           "compare.json", "compare_reference.csv", checkpoint_name}) {
     for (const char* ending : {"", ".part"}) {
       if (fs::exists(folder / (std::string(name) + ending)))
         found.push_back(folder / (std::string(name) + ending));

@@ -81,6 +81,7 @@ class Reduction {
     try {
       if (!simulation.settle(settings_.interrupted)) return std::nullopt;
       if (!follow(simulation, result)) return std::nullopt;
+      if (result.collapsed) result.parts = moved_parts(simulation);
     } catch (const NumericalTrouble& trouble) {
       result.trouble = trouble.what();
       result.collapsed = true;
@@ -125,6 +126,22 @@ class Reduction {
                     "that yield is too high, the more so the coarser they are; see where it goes with their "
                     "size: {}",
                     listed(names)));
+  }
+
+  std::vector<MovedPart> moved_parts(const Simulation& simulation) const {
+    std::vector<MovedPart> moved;
+    for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
+      for (const BodyPart& part : simulation.parts(body)) {
+        MovedPart& one = moved.emplace_back(MovedPart{body, {}});
+        for (const std::vector<PartPoint>& loop : part.loops) {
+          auto& points = one.loops.emplace_back();
+          for (const PartPoint& p : loop)
+            points.push_back(
+                {{p.position.x - p.displacement.x, p.position.y - p.displacement.y}, p.displacement});
+        }
+      }
+    }
+    return moved;
   }
 
   /// Until it is clear whether it stands, each time twice as long as before. False if it was interrupted.
@@ -222,6 +239,9 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
     if (!run) {
       safety.interrupted = true;
       break;
+    }
+    if (run->collapsed) {
+      for (ReducedRun& before : safety.runs) before.parts.clear();  // at a larger factor: of no more use
     }
     safety.runs.push_back(*run);
     if (settings.tried) settings.tried(*run);

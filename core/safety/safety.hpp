@@ -14,6 +14,15 @@ namespace talus {
 /// velocities at the start. Throws InputError where nothing could be reduced.
 Scene with_reduced_strength(const Scene& scene, double factor);
 
+/// A part of a body that strains uniformly: where it stood, and how far its corners came.
+struct MovedPart {
+  struct Point {
+    Vec2 from, moved;  ///< m, without the scene's origin
+  };
+  std::size_t body;
+  std::vector<std::vector<Point>> loops;
+};
+
 /// How a scene fared with its strength divided by a factor.
 struct ReducedRun {
   double factor = 1;
@@ -25,6 +34,7 @@ struct ReducedRun {
   std::vector<std::size_t> moving;         ///< bodies that failed, where it collapsed
   std::vector<std::size_t> moving_little;  ///< bodies that move on too slowly to tell
   std::string trouble;                     ///< what stopped it, if anything did
+  std::vector<MovedPart> parts;            ///< of all bodies, where it collapsed of itself
 };
 
 struct SafetySettings {

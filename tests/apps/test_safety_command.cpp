@@ -62,6 +62,8 @@ TEST_CASE(
   CHECK(rows >= 3);
   CHECK_THAT(read_whole_file(scratch / "results/safety.svg"),
              Contains("<svg") && Contains("factor of safety 1.0"));
+  CHECK_THAT(read_whole_file(scratch / "results/mechanism.svg"),
+             Contains("<svg") && Contains("<title>block</title>") && Contains("collapse at a factor of 1.0"));
 }
 
 TEST_CASE("talus safety says what collapses however strong, and what stands however weak", "[apps][safety]") {

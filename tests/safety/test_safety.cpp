@@ -2,6 +2,7 @@
 
 #include "figures/runs.hpp"
 #include "output/input_error.hpp"
+#include "safety/mechanism.hpp"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -105,13 +106,25 @@ TEST_CASE("What cannot stand, and what stands whatever is taken, are told apart"
   CHECK_FALSE(fallen.stands);
   CHECK(fallen.falls);
   CHECK_FALSE(fallen.factor());
+  // It slides down 30°: nothing but the block has moved, and the arrow points along the incline.
+  const ReducedRun& last = fallen.runs.back();
+  REQUIRE(last.parts.size() == 2);
+  for (const MovedPart& part : last.parts) {
+    for (const MovedPart::Point& point : part.loops.front()) {
+      CHECK(point.moved.y ==
+            Approx(part.body == 0 ? 0 : -std::tan(30 * degree) * point.moved.x).margin(1e-3));
+      CHECK((std::abs(point.moved.x) > 1) == (part.body == 1));
+    }
+  }
+  for (std::size_t i = 0; i + 1 < fallen.runs.size(); ++i) CHECK(fallen.runs[i].parts.empty());
   const std::string flat =
       R"({"name": "base", "polygon": [[-4, -1], [4, -1], [4, 0], [-4, 0]], "material": "rock", "fixed": true},
          {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})";
-  const Safety stood = factor_of_safety(
-      from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", flat)), {.highest = 3});
+  const Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 30, "", flat));
+  const Safety stood = factor_of_safety(scene, {.highest = 3});
   CHECK(stood.stands);
   CHECK_FALSE(stood.falls);
+  CHECK(mechanism_svg(scene, stood).empty());
 }
 
 TEST_CASE("What makes a factor doubtful is told", "[safety]") {
