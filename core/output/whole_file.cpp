@@ -57,12 +57,14 @@ void write_into(const std::filesystem::path& file, std::string_view contents) {
 
 void write_whole_file(const std::filesystem::path& file, std::string_view contents, Durability durability) {
   const std::filesystem::path place = followed(file);
-  if (std::filesystem::is_directory(place)) {
-    errno = EISDIR;
+  std::error_code problem;  // what cannot be looked at cannot be written either, and that is told below
+  const bool loops = std::filesystem::is_symlink(place);
+  if (loops || std::filesystem::is_directory(place, problem)) {
+    errno = loops ? ELOOP : EISDIR;
     fail("cannot write", place);
   }
   // A pipe or a device has no place that another file could take.
-  if (std::filesystem::exists(place) && !std::filesystem::is_regular_file(place)) {
+  if (std::filesystem::exists(place, problem) && !std::filesystem::is_regular_file(place, problem)) {
     write_into(place, contents);
     return;
   }
@@ -74,7 +76,6 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   stream.close();
   if (!stream) fail_without(temporary, place);
   if (durability == Durability::on_disk) flush_to_disk(temporary);
-  std::error_code problem;
   std::filesystem::rename(temporary, place, problem);
   if (problem) {
     errno = problem.value();

@@ -109,15 +109,15 @@ Deformation::Energy Deformation::apply(const Model& model, MotionState& motion, 
 
 Deformation::Energy Deformation::apply_and_update(const Model& model, const PatchMass& mass,
                                                   std::span<const Support> supports,
-                                                  const StepConditions& conditions, bool keep,
+                                                  const StepConditions& conditions, double dt, bool keep,
                                                   MotionState& motion, std::vector<Vec2>& at_step) {
-  const Energy blocks = apply_to_blocks(model, conditions.dt_behind, keep, motion);
+  const Energy blocks = apply_to_blocks(model, dt, keep, motion);
   const Update update = update_of(conditions);
   for (const std::uint32_t b : model.covered_bodies) {
     free_[b] = support_of(supports, b).any() ? 0 : 1;
     updated_[b] = {free_[b] != 0 ? model.ranges(model.bodies[b]).free_end : 0, {}};
   }
-  SweepStep step{.dt = conditions.dt_behind, .keep = keep, .update = true};
+  SweepStep step{.dt = dt, .keep = keep, .update = true};
   step.velocity = {
       update.keep, update.gain, {conditions.gravity.x, conditions.gravity.y}, wants_all_sums(conditions)};
   step.inverse_mass = mass.inverse().data();

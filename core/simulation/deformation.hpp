@@ -34,7 +34,7 @@ class Deformation {
   /// accelerate() then does the rest of them (see updated()). Their velocity at t_n is left in `at_step`
   /// where it is kept.
   Energy apply_and_update(const Model& model, const PatchMass& mass, std::span<const Support> supports,
-                          const StepConditions& conditions, bool keep, MotionState& motion,
+                          const StepConditions& conditions, double dt, bool keep, MotionState& motion,
                           std::vector<Vec2>& at_step);
 
   /// [body] whether it stands and needs no forces, not 0; empty: none.

@@ -20,10 +20,7 @@ void Simulation::exchange(Archive& archive) {
   archive(s.stages_begun);
   if (archive.reading()) {
     if (s.stages_begun > s.scene.stages.size()) Archive::refuse();
-    if (s.stages_begun > 0) {
-      s.enter_stage(s.scene.stages[s.stages_begun - 1].settings);
-      s.loads = Loads(s.scene, s.stage, s.model);
-    }
+    if (s.stages_begun > 0) s.enter_stage(s.scene.stages[s.stages_begun - 1].settings);
   }
   s.motion.exchange(archive);
   s.contacts.exchange(archive, s.model);

@@ -17,10 +17,13 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     initial_ = stored();
     started_ = true;
   } else {
-    l.friction_loss += contact.slip_loss;
-    l.contact_damping_loss += contact.damping_loss;
+    // Those of the step behind are found anew where a stage begins.
+    const Losses former = stage_begins ? since_last_ : Losses{};
+    since_last_ = {contact.slip_loss, contact.damping_loss, strain.dissipated};
+    l.friction_loss += since_last_.friction - former.friction;
+    l.contact_damping_loss += since_last_.contact_damping - former.contact_damping;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
-    l.material_loss += strain.dissipated;
+    l.material_loss += since_last_.material - former.material;
     l.external_work +=
         stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }

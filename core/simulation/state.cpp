@@ -81,20 +81,19 @@ void Simulation::State::step(double next_end) {
   ++plan.done;
   ++(settling ? summary.settle_steps : summary.steps);
   time = plan.done == plan.steps ? plan.end : plan.begin + static_cast<double>(plan.done) * plan.dt;
-  const double dt = dt_behind;
-  const bool begins = begin_due_stages();
+  begin_due_stages();
   if (plan.done == plan.steps) {
     make_plan(plan.end < plan.target ? plan.target : next_end);
   } else if (!scene.time.dt && plan.dt > too_fast * allowed_dt()) {
     make_plan(plan.target);
   }
-  forces(begins);
+  forces();
   check_step();
   profile.leave();
   if (settling) return;
   remember_deepest();
   // The corners of a body that spins differ in speed by its spin times its width or more.
-  turned += dt * speeds.relative / model.smallest_width;
+  turned += dt_behind * speeds.relative / model.smallest_width;
   if (turned > 1) bring_rotation_up_to_date();
 }
 
@@ -108,7 +107,7 @@ void Simulation::State::begin(double end) {
 }
 
 /// The right-hand side of Eq. 16 and the velocity update.
-void Simulation::State::forces(bool stage_begins) {
+void Simulation::State::forces() {
   to_be_seen = velocities_left = false;
   observed = watched || plan.done == 0;
   profile.enter(Phase::boundary);
@@ -134,11 +133,13 @@ void Simulation::State::forces(bool stage_begins) {
     unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
   }
   const double damping = relaxation.damping(how, model, motion, dt_behind);
-  const StepConditions conditions{pull, fresh ? pull : last_gravity, damping, dt_behind, plan.dt, !settling};
+  if (stage_begins) take_velocities_at_stage();
+  const StepConditions conditions{pull,     fresh ? pull : last_gravity, damping, pushed_behind(), plan.dt,
+                                  !settling};
   if (how.kind == Damping::Kind::kinetic) relaxation.remember_velocities(motion);
   if (at_once)
-    strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, observed, motion,
-                                                 patch_velocity_at_step);  // Eqs. 18, 23–24
+    strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, dt_behind, observed,
+                                                 motion, patch_velocity_at_step);  // Eqs. 18, 23–24
   check_shapes();
   if (sleep) strain_energy.stored += sleep->strain_energy();
   profile.enter(Phase::velocities);
@@ -156,13 +157,13 @@ void Simulation::State::forces(bool stage_begins) {
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop(conditions);
   profile.enter(Phase::checks);
-  fresh = false;
+  fresh = stage_begins = false;
   to_be_seen = velocities_left = observed;
 }
 
 /// Islands go to sleep in steps as long as the one before, of which velocities at t_n are kept.
 bool Simulation::State::may_sleep() const {
-  return sleep && !settling && dt_behind > 0 && dt_behind == plan.dt && sleep->due(time);
+  return sleep && !settling && !stage_begins && dt_behind > 0 && dt_behind == plan.dt && sleep->due(time);
 }
 
 /// Whether all forces have to be known before any patch can go on.
@@ -210,41 +211,59 @@ Vec2 Simulation::State::gravity() const {
 
 /// While the scene settles all that depends on time is as at the start.
 StepSpan Simulation::State::step_span() const {
-  return settling ? StepSpan(0, 0, 0) : StepSpan(time, dt_behind, plan.dt);
+  return settling ? StepSpan(0, 0, 0) : StepSpan(time, pushed_behind(), plan.dt);
 }
 
 bool Simulation::State::settled() const {
   return scene.settle->until && summary.settle_steps > 0 && unbalanced_share < *scene.settle->until;
 }
 
-/// Before a stage begins, what acted until then brings bodies to their velocities at t_n, and is booked; with
-/// the stage they go on from there, as at the start of a run.
-bool Simulation::State::begin_due_stages() {
-  if (settling) return false;
+/// What acted until a stage begins takes bodies to their velocities at t_n, and is booked. Then all is found
+/// once more with what is new, which has no part in the step behind; laws see that step as it was.
+void Simulation::State::begin_due_stages() {
+  if (settling) return;
   std::size_t begun = stages_begun;
   while (begun < scene.stages.size() && scene.stages[begun].from <= time * (1 + rounding)) ++begun;
-  if (begun == stages_begun) return false;
+  if (begun == stages_begun) return;
+  const StageSettings& next = scene.stages[begun - 1].settings;
+  if (sleep) sleep->begin_stage(next, time, sleeping_parts());
+  Archive memory;
+  exchange_memory(memory);
+  velocities_at_stage = {motion.bodies, motion.patch_velocity};
   const double ahead = std::exchange(plan.dt, 0);
   forces();
   plan.dt = ahead;
-  dt_behind = 0;
   stages_begun = begun;
-  const StageSettings& next = scene.stages[begun - 1].settings;
-  if (sleep) sleep->begin_stage(next, time, sleeping_parts());
   enter_stage(next);
-  loads = Loads(scene, stage, model);
   impose_at_once(model, mass, stage.supports, motion);
+  speeds = blocks.follow(model, contacts.drift(), motion);  // the first step is bounded by them, too
+  take_velocities_at_stage();
+  Archive former(memory.bytes());
+  exchange_memory(former);
+  relaxation.forget();
   critical = votes.among(contacts.lightest_neighbours());
   summary.critical_dt = std::min(summary.critical_dt, critical.dt);
-  return true;
+  stage_begins = true;
 }
 
-/// All but loads, which let go of what they held.
+/// What laws remember of the step before.
+void Simulation::State::exchange_memory(Archive& archive) {
+  contacts.exchange(archive, model);
+  deformation.exchange(archive);
+}
+
+/// Those of the half step behind come in their place.
+void Simulation::State::take_velocities_at_stage() {
+  std::ranges::swap_ranges(motion.bodies, velocities_at_stage.bodies);
+  std::ranges::swap_ranges(motion.patch_velocity, velocities_at_stage.patches);
+}
+
 void Simulation::State::enter_stage(const StageSettings& next) {
   stage = next;
   contacts.set_interfaces(stage.interface_values);
   blocks.set_supports(stage.supports);
   votes = StepVote(scene, stage, model, contacts);
+  loads = Loads(scene, stage, model);
 }
 
 double Simulation::State::nominal_dt() const {

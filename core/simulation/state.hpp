@@ -70,6 +70,11 @@ struct Simulation::State {
   std::vector<BodyMotion> start;
   std::vector<Vec2> start_displacement;  ///< [patch]
   std::size_t stages_begun = 0;
+  bool stage_begins = false;  ///< at t_n, for the coming forces()
+  struct {
+    std::vector<BodyMotion> bodies;
+    std::vector<Vec2> patches;  ///< [patch] m/s
+  } velocities_at_stage;
   Vec2 last_gravity;             ///< m/s², at t_{n−1}
   double unbalanced_share = 0;   ///< unbalanced over applied force, while settling
   std::vector<double> rotation;  ///< [body] rad from the shape it is drawn in, followed through full turns
@@ -100,9 +105,13 @@ struct Simulation::State {
   double allowed_dt() const;
   void refuse_uncountable_steps() const;
 
-  void forces(bool stage_begins = false);
+  void forces();
   bool forces_first(const Damping& how) const;
-  bool begin_due_stages();
+  void begin_due_stages();
+  void exchange_memory(Archive& archive);
+  void take_velocities_at_stage();
+  /// s of the step behind over whose second half the forces of t_n act.
+  double pushed_behind() const { return stage_begins ? 0 : dt_behind; }
   void enter_stage(const StageSettings& next);
   Vec2 gravity() const;
   StepSpan step_span() const;

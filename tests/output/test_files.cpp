@@ -56,6 +56,8 @@ TEST_CASE("links are followed, and what is no file is written into", "[output][f
   CHECK(std::string(got) == "through");
   CHECK(std::filesystem::is_fifo(pipe));
 
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  CHECK_THROWS_WITH(write_whole_file(scratch / "loop", ""), Contains("cannot write") && Contains("loop"));
   CHECK_THROWS_WITH(write_whole_file(scratch.folder(), ""), Contains("directory"));
   CHECK_FALSE(std::filesystem::exists(scratch.folder().string() + ".part"));
 }

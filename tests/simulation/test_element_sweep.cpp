@@ -222,7 +222,7 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
       one.clear_forces(model);
       two.clear_forces(model);
       const Deformation::Energy now =
-          first.apply_and_update(model, mass, supports, conditions, true, one, at_one);
+          first.apply_and_update(model, mass, supports, conditions, conditions.dt_behind, true, one, at_one);
       for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         const Body& body = model.bodies[b];
         const CoverRanges& ranges = model.ranges(body);

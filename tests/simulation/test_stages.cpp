@@ -214,6 +214,86 @@ TEST_CASE("a joint that becomes a hundred times as stiff springs open as it woul
   }
 }
 
+namespace {
+
+struct Ends {
+  double position, velocity, lost, residual;
+};
+
+/// At the end of a run of equal steps, a stage of which begins at one of them.
+Ends ends_of(WorkingScene text, const std::string& stage) {
+  text.rest += stage;
+  const Simulation simulation = run_to_end(text);
+  const EnergyLedger& l = simulation.ledger();
+  const Motion motion = simulation.body_motion(1);
+  return {motion.displacement.x + motion.displacement.y, motion.velocity.x + motion.velocity.y,
+          l.friction_loss + l.contact_damping_loss + l.material_loss,
+          simulation.summary().largest_residual_share};
+}
+
+}  // namespace
+
+TEST_CASE("a stage that changes nothing changes nothing, whatever lasts from step to step",
+          "[simulation][stages]") {
+  WorkingScene text;
+  text.gravity = "[0, -10]";
+  text.bodies = box("base", -3, -1, 3, 0, R"("fixed": true)") + ", " +
+                box("a", -1, 1e-4, 1, 1, R"("velocity": [0.5, -0.5])");
+  text.time = R"({"end": 0.004, "dt": 1e-5})";
+  text.output = R"({"history": 0.001})";
+  const auto [material, cover, damping] =
+      GENERATE(table<const char*, const char*, const char*>({{"linear_elastic", "block", "0"},
+                                                             {"linear_elastic", "block", "0.3"},
+                                                             {"linear_elastic", "rigid", "0.3"},
+                                                             {"hypoelastic", "block", "0.1"},
+                                                             {"mohr_coulomb", "block", "0"}}));
+  const std::string law = GENERATE("overlap_area", "vertex_edge", "cohesive_overlap");
+  CAPTURE(material, cover, damping, law);
+  text.law = law;
+  text.cover = cover;
+  text.material =
+      fmt::format(R"("density": 2300, "model": "{}", "young_modulus": 1e9, "poisson_ratio": 0.25)", material);
+  text.material +=
+      std::string_view(material) == "mohr_coulomb" ? R"(, "friction_angle": 30, "cohesion": 1e5)" : "";
+  if (std::string_view(cover) == "block") text.material += R"(, "damping_time": 1e-4)";
+  text.interface = fmt::format(R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 20,
+                                  "normal_damping": {0}, "tangential_damping": {0})",
+                               damping);
+  const Ends without = ends_of(text, "");
+  const Ends with = ends_of(text, R"("stages": [{"name": "a", "from": 0.0005, "set": {"/gravity": [0, -10]}},
+                                  {"name": "b", "from": 0.00123, "set": {"/gravity": [0, -10]}}],)");
+  REQUIRE(without.lost > 0);
+  CHECK(with.position == Approx(without.position).epsilon(1e-9));
+  CHECK(with.velocity == Approx(without.velocity).epsilon(1e-9));
+  CHECK(with.lost == Approx(without.lost).epsilon(1e-9));
+  CHECK(with.residual <= without.residual + 1e-4);
+}
+
+TEST_CASE("a stage under kinetic damping takes no velocity that grows", "[simulation][stages]") {
+  for (const char* cover : {"rigid", "block"}) {
+    WorkingScene text;
+    text.cover = cover;
+    text.gravity = "[0, -10]";
+    text.bodies = box("a", 0, 0, 1, 1);
+    text.rest = R"("damping": "kinetic",
+                   "stages": [{"name": "heavy", "from": 0.1, "set": {"/gravity": [0, -20]}}],)";
+    text.time = R"({"end": 0.2, "dt": 1e-3})";
+    CHECK(run_to_end(text).body_motion(0).velocity.y == Approx(-3).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the first step of a stage is bounded by the velocities that it begins with",
+          "[simulation][stages]") {
+  WorkingScene text;
+  text.bodies = box("wall", 2, -1, 3, 2, R"("fixed": true)") + ", " + box("a", 0, 0, 1, 1);
+  text.interface = R"("normal_stiffness": 1e4, "normal_damping": 0, "tangential_stiffness": 0,
+                      "friction_angle": 0, "tangential_damping": 0)";
+  text.rest = R"("stages": [{"name": "pushed", "from": 0.5, "set": {"/bodies/1/drive": {"x": 40}}}],)";
+  text.time = R"({"end": 1})";
+  text.output = R"({"history": 0.1})";
+  CHECK_THROWS_WITH(run_to_end(text), Catch::Contains("too deep an overlap"));
+}
+
 TEST_CASE("a body that is held under its weight and then let go keeps its balance", "[simulation][stages]") {
   WorkingScene text;
   text.gravity = "[0, -10]";
