@@ -185,7 +185,7 @@ std::string fault_of(const LaidCover& cover, const GivenShape& given) {
         cover.strain_mass_scale);
   }
   if (block) return "";
-  if (const std::string fault = fault_of_boundary(cover, given); !fault.empty()) return fault;
+  if (std::string fault = fault_of_boundary(cover, given); !fault.empty()) return fault;
   std::vector<char> is_steadied(cover.patches.size(), 0);
   for (const LaidCover::Steadied& one : cover.steadied) {
     const auto known = [&](std::uint32_t patch) { return patch < cover.patches.size(); };
