@@ -133,7 +133,10 @@ void Simulation::State::forces() {
     unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
   }
   const double damping = relaxation.damping(how, model, motion, dt_behind);
-  if (stage_begins) take_velocities_at_stage();
+  if (stage_begins) {
+    take_velocities_at_stage();
+    velocities_at_stage = {};  // not until the next stage
+  }
   const StepConditions conditions{pull,     fresh ? pull : last_gravity, damping, pushed_behind(), plan.dt,
                                   !settling};
   if (how.kind == Damping::Kind::kinetic) relaxation.remember_velocities(motion);
