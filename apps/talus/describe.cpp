@@ -3,7 +3,7 @@
 #include "plugin/refusal.hpp"
 #include "scene/nearest.hpp"
 #include "scene_options.hpp"
-#include "schema/parts.hpp"
+#include "schema/lookup.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace talus {
 
 namespace {
 
-void print_keys(const char* title, const std::vector<Key>& keys) {
+void print_keys(const std::string& title, const std::vector<Key>& keys) {
   if (keys.empty()) return;
   std::size_t widths[4] = {0, 0, 0, 0};
   std::vector<std::vector<std::string>> rows{{"key", "unit", "default", "range", "meaning"}};
@@ -38,14 +38,32 @@ void print_component(const RegisteredComponent& entry) {
     fmt::print("\nIt has no parameters.\n");
 }
 
+void print_section(const Part& section) {
+  fmt::print("{} (section of a scene)\n", section.pointer);
+  print_keys("Keys", section.keys);
+}
+
+[[noreturn]] void refuse(const Usage& usage, const std::string& name, const Registry& registry,
+                         const std::vector<Part>& parts) {
+  std::vector<std::string> names = pointers_beside(parts, registry, name);
+  if (names.empty()) {
+    for (const RegisteredComponent& entry : registry.components()) names.emplace_back(entry.component->name);
+    for (const Part& part : parts) names.push_back(part.pointer);
+  }
+  throw UsageError(usage.command, fmt::format("there is nothing named '{}'{}\n       known are: {}", name,
+                                              guess(name, names), listed(names)));
+}
+
 }  // namespace
 
 Usage usage_of_describe() {
   Usage usage{
       "describe", "NAME [options]",
       "Explains a component (a contact law, a material, a cover) or a section of a scene (as /time) with\n"
-      "all its parameters: unit, default, range, meaning.",
-      "NAME", "  talus describe overlap_area\n  talus describe /time\n"};
+      "all its parameters: unit, default, range, meaning; or one key, by its name or as messages have it.",
+      "NAME",
+      "  talus describe overlap_area\n  talus describe /time\n  talus describe friction_angle\n"
+      "  talus describe /bodies/3/velocity\n"};
   add_plugin_path(usage);
   return usage;
 }
@@ -56,24 +74,24 @@ int describe_command(const Words& words) {
   if (!given) return exit_code::ok;
   const std::string name = text_option(*given, "NAME");
   const Registry registry = load_registry(usage, *given);
-  std::vector<std::string> names;
-  bool found = false;
   for (const RegisteredComponent& entry : registry.components()) {
-    names.emplace_back(entry.component->name);
     if (name != entry.component->name) continue;
     print_component(entry);
-    found = true;
+    return exit_code::ok;
   }
-  for (const Part& part : parts_of_scene()) {
-    names.push_back(part.pointer);
-    if (name != part.pointer) continue;
-    fmt::print("{} (section of a scene)\n", name);
-    print_keys("Keys", part.keys);
-    found = true;
+  const std::vector<Part> parts = parts_of_scene();
+  if (const Part* section = section_at(parts, name)) {
+    print_section(*section);
+    return exit_code::ok;
   }
-  if (found) return exit_code::ok;
-  throw UsageError(usage.command, fmt::format("there is nothing named '{}'{}\n       known are: {}", name,
-                                              guess(name, names), listed(names)));
+  const std::vector<KeysFound> found = keys_named(parts, registry, name);
+  for (const KeysFound& keys : found) print_keys(fmt::format("A key of {}", keys.of), keys.keys);
+  if (!found.empty()) return exit_code::ok;
+  if (const Part* entry = entry_at(parts, name)) {
+    print_section(*entry);
+    return exit_code::ok;
+  }
+  refuse(usage, name, registry, parts);
 }
 
 }  // namespace talus
