@@ -118,10 +118,11 @@ std::vector<std::string> named_libraries(const std::filesystem::path& scene_file
 namespace {
 
 /// A path in "plugins" is a mistake only for want of permission; what is no path at all is none of these.
-bool names_a_library(const std::filesystem::path& file, const SceneError& problem) {
-  if (named_libraries(file).empty()) return false;
-  return std::any_of(problem.mistakes.begin(), problem.mistakes.end(),
-                     [](const Mistake& mistake) { return mistake.pointer.starts_with("/plugins/"); });
+bool wants_permission(const SceneError& problem) {
+  return std::any_of(problem.mistakes.begin(), problem.mistakes.end(), [](const Mistake& mistake) {
+    return mistake.pointer.starts_with("/plugins/") &&
+           mistake.message.find("--allow-plugins") != std::string::npos;
+  });
 }
 
 /// Of libraries that, by their names, were to bring what others bring now.
@@ -148,7 +149,7 @@ Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
     for (const RefusedLibrary& refused : registry.refused) {
       log.warning(fmt::format("{} was refused: {}", refused.file.string(), refused.reason));
     }
-    if (!allow_plugins && names_a_library(file, problem)) throw LibrariesNotAllowed(problem);
+    if (wants_permission(problem)) throw LibrariesNotAllowed(problem);
     throw;
   }
 }

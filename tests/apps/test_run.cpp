@@ -232,6 +232,13 @@ TEST_CASE("libraries that a scene names load only when allowed", "[apps][validat
   const Call call = call_talus(scratch.folder(), {"validate", "foreign.json"});
   CHECK(call.code == 3);
   CHECK_THAT(call.out + call.err, Contains("./libnowhere.so") && Contains("--allow-plugins"));
+  scratch.write("plain.json", small_scene());
+  const Call set =
+      call_talus(scratch.folder(), {"validate", "plain.json", "--set", R"(/plugins=["./libnowhere.so"])"});
+  CHECK(set.code == 3);
+  CHECK_THAT(set.err, Contains("./libnowhere.so") && Contains("--allow-plugins"));
+  const Call no_path = call_talus(scratch.folder(), {"validate", "plain.json", "--set", "/plugins=[7]"});
+  CHECK(no_path.code == 2);
 }
 
 TEST_CASE("a run that is interrupted leaves whole files", "[apps][run]") {
