@@ -1,15 +1,12 @@
 #pragma once
 
-#include <talus/overlap/piece.hpp>
+#include "vertex.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 namespace talus::vertex_edge {
-
-using overlap::Piece;
-using overlap::Point;
 
 /// A vertex of one body against a side of the other.
 struct CornerContact {
@@ -25,13 +22,6 @@ struct CornerContact {
   double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1
 };
 
-struct PiecePairGeometry {
-  Piece piece[2];
-};
-
-/// Cosine of the turn below which two edges count as one straight stretch.
-inline constexpr double straight = 1 - 1e-9;
-
 /// Whether an edge is no more than a corner cut off, or rounding, between two others.
 inline bool is_short(const Piece& piece, std::uint32_t edge) {
   constexpr double share = 1e-3;
@@ -44,10 +34,11 @@ inline bool is_short(const Piece& piece, std::uint32_t edge) {
 }
 
 /// Of the edges that meet in a vertex, the one that lies flatter on a side along `along`; a short one only
-/// beside another.
+/// beside another. Where a cut ends in the vertex, the one that the piece has.
 inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along) {
   if (own.is_strip()) return 0;
   const std::uint32_t before = own.previous(v);
+  if (own.is_cut(before) != own.is_cut(v)) return own.is_cut(v) ? before : v;
   if (is_short(own, before) != is_short(own, v)) return is_short(own, v) ? before : v;
   return dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
 }
@@ -57,17 +48,23 @@ inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along
 /// one it is least deep behind; where both corners then stand on each other's edges each spring counts half.
 class CornerFinder {
  public:
+  /// Of one of the piece pairs of a pair of bodies; no bond reaches further than `farthest` m.
   template <class BondReach>
-  void find(const PiecePairGeometry& geometry, std::uint32_t entry, const BondReach& bond_reach,
-            std::vector<CornerContact>& found) {
+  void find(std::span<const PiecePairGeometry> pieces, std::uint32_t entry, const BondReach& bond_reach,
+            double farthest, std::vector<CornerContact>& found) {
+    const PiecePairGeometry& geometry = pieces[entry];
     const std::size_t first = found.size();
     for (std::uint32_t body = 0; body < 2; ++body) {
       const Piece& own = geometry.piece[body];
       const Piece& other = geometry.piece[1 - body];
+      const Vertices vertices(pieces, body);
       for (std::uint32_t v = 0; v < own.size(); ++v) {
-        if (!is_vertex(own, v)) continue;
-        const std::uint32_t key = 2 * (own.first_corner() + v) + body;
-        stand(own, other, v, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1}, found);
+        const std::optional<Vertex> vertex = own.is_strip()                       ? end_of_strip(own, v)
+                                             : may_stand(own, other, v, farthest) ? vertices.at(own, v)
+                                                                                  : std::nullopt;
+        if (!vertex) continue;
+        const std::uint32_t key = 2 * vertex->name + body;
+        stand(own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1}, found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -82,19 +79,29 @@ class CornerFinder {
   /// Share of its edges by which a corner may stand past the end of an edge and still be carried by it.
   static constexpr double flush = 0.01;
 
-  /// Whether the boundary turns here: neither the end of a cut nor a joint between collinear edges. A body of
-  /// many elements bends at every corner, and each side brings both of its ends.
-  static bool is_vertex(const Piece& piece, std::uint32_t v) {
-    if (piece.is_strip()) return v < 2 && piece.real(0);
-    const std::uint32_t before = piece.previous(v);
-    return piece.real(v) && piece.real(before) && dot(piece.tangent(before), piece.tangent(v)) < straight;
+  /// A body of many elements bends at every corner, and each side brings both of its ends.
+  static std::optional<Vertex> end_of_strip(const Piece& own, std::uint32_t v) {
+    if (v >= 2 || !own.real(0)) return std::nullopt;
+    return Vertex{own.normal(0), {0, 0}, own.length(0), own.first_corner() + v, false};
   }
 
-  [[gnu::always_inline]] static void stand(const Piece& own, const Piece& other, std::uint32_t v,
+  /// Of a corner where a cut ends: what lies beyond is worth a look only where something may be stood on.
+  static bool may_stand(const Piece& own, const Piece& other, std::uint32_t v, double farthest) {
+    if (own.is_cut(v) == own.is_cut(own.previous(v))) return !own.is_cut(v);
+    double around = 0;
+    for (std::uint32_t i = 0; i < own.size(); ++i) around += own.length(i);
+    const double margin = std::max(farthest, flush * around);
+    for (std::uint32_t k = 0; k < other.size(); ++k) {
+      if (other.depth(k, own.at(v)) < -margin) return false;
+    }
+    return true;
+  }
+
+  [[gnu::always_inline]] static void stand(const Piece& own, const Piece& other, const Vertex& vertex,
                                            double bond_reach, CornerContact contact,
                                            std::vector<CornerContact>& found) {
-    const Point at = own.at(v);
-    const Point outward = own.is_strip() ? own.normal(0) : own.tangent(own.previous(v)) - own.tangent(v);
+    const std::uint32_t v = contact.vertex;
+    const Point at = own.at(v), outward = vertex.outward();
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= 0) continue;
@@ -109,8 +116,9 @@ class CornerFinder {
       contact.depth = depth;
     }
     const double sought = std::max(contact.depth, bond_reach);
-    double edge = own.is_strip() ? own.length(0) : std::min(own.length(v), own.length(own.previous(v)));
-    if (nearest > edge || sought > flush * edge) edge = shorter_edge(own, v);  // or it need not be known
+    double edge = vertex.shorter;
+    if (!vertex.divided && (nearest > edge || sought > flush * edge))
+      edge = shorter_edge(own, v);   // or it need not be known
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
@@ -119,11 +127,18 @@ class CornerFinder {
       if (k == contact.side || other.length(k) == 0) continue;
       if (other.depth(k, at) < -contact.slack) return;
     }
+    if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);
     contact.tributary = tributary_length(own, other, v, contact.side);
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
+  }
+
+  /// Of the pieces that share a vertex the one with the edge that lies flatter on a side has the contact.
+  static bool has_flatter_edge(const Piece& own, const Vertex& vertex, std::uint32_t v, Point along) {
+    const double before = dot(vertex.before, along), after = dot(vertex.after, along);
+    return own.is_cut(v) ? before <= after : after < before;
   }
 
   /// Corners that meet: one is past the end of its side where the other is, so that it stands there by its

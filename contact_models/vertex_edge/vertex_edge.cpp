@@ -135,16 +135,19 @@ class VertexEdge final : public ContactModel {
       geometry.piece[0] = Piece(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
       geometry.piece[1] = Piece(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y},
                                 pieces.load_start + geometry.piece[0].size());
-      const double touching = batch.bonds_form ? 1e-12 * std::min(longest_side(geometry.piece[0]),
-                                                                  longest_side(geometry.piece[1]))
-                                               : 0.0;
+    }
+    const std::span<const PiecePairGeometry> all(work.pieces.data(), entries);
+    for (std::uint32_t e = 0; e < entries; ++e) {
+      const double touching =
+          batch.bonds_form ? 1e-12 * std::min(longest_side(all[e].piece[0]), longest_side(all[e].piece[1]))
+                           : 0.0;
       const double bonded = work.reach_of_bonds;
       const auto bond_reach = [&, bonded, touching](std::uint32_t key) {
         if (bonded == touching) return touching;  // no need to know who is bonded
         const SpringHistory* old = find_old(work.old, key);
         return old != nullptr && old->intact == 1 ? bonded : touching;
       };
-      work.finder.find(geometry, e, bond_reach, work.found);
+      work.finder.find(all, e, bond_reach, std::max(bonded, touching), work.found);
     }
     drop_repeated(work.found);
   }
