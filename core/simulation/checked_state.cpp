@@ -114,6 +114,17 @@ void Simulation::State::check_step() const {
         time, speeds.relative, speeds.relative * plan.dt, plan.dt, 100 * speed_share * too_fast,
         model.smallest_width, plan.dt / critical.dt, critical.dt, std::min(allowed_dt(), critical.dt)));
   }
+  // The automatic step is bound by speeds that bodies had; what gains its speed within one has passed others
+  // before anybody has looked.
+  const double way = speeds.relative * dt_behind;
+  if (!scene.time.dt && way > passed_share * model.smallest_width) {
+    throw NumericalTrouble(fmt::format(
+        "the automatic step is too large for what acts at t = {:.9g} s: within {:.3g} s bodies came to move "
+        "at {:.6g} m/s against each other, {:.3g} m in a step, where the smallest width is {:.3g} m; look at "
+        "loads, gravity and ground motion, or take /time/dt below {:.3g}",
+        time, dt_behind, speeds.relative, way, model.smallest_width,
+        dt_behind * std::sqrt(speed_share * model.smallest_width / way)));
+  }
   const ContactTotals& totals = contact_totals;
   if (totals.penetration == 0) return;
   const Body &a = model.bodies[totals.deepest_a], &b = model.bodies[totals.deepest_b];

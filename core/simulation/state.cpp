@@ -293,12 +293,14 @@ double Simulation::State::allowed_dt() const {
 /// What cannot be run is refused before anything is written.
 void Simulation::State::refuse_uncountable_steps() const {
   const double dt = scene.time.dt ? *scene.time.dt : automatic_step(votes.anyhow(), scene.time.safety);
-  const double interval = std::min(scene.output.history, scene.time.end);
-  if (interval / dt <= countable_steps) return;
-  throw InputError(fmt::format(
-      "{} of {:.3g} s makes {:.3g} steps to the first output at {:.6g} s, more than any run can do: expected "
-      "at most {:.0e}",
-      scene.time.dt ? "/time/dt" : "the automatic step", dt, interval / dt, interval, countable_steps));
+  const auto refuse = [&](double span, const char* what) {
+    if (span / dt <= countable_steps) return;
+    throw InputError(fmt::format(
+        "{} of {:.3g} s makes {:.3g} steps {} at {:.6g} s, more than any run can do: expected at most {:.0e}",
+        scene.time.dt ? "/time/dt" : "the automatic step", dt, span / dt, what, span, countable_steps));
+  };
+  if (scene.settle) refuse(scene.settle->duration, "to the end of /settle");
+  refuse(std::min(scene.output.history, scene.time.end), "to the first output");
 }
 
 /// At each output time, so nothing is put into words here.

@@ -95,6 +95,8 @@ struct Simulation::State {
   static constexpr double speed_share = 0.1;
   /// Times the allowed step: plan anew, or stop where the step is fixed.
   static constexpr double too_fast = 1.5;
+  /// Of the smallest width: who moves so far in a step may have passed through another body.
+  static constexpr double passed_share = 0.5;
 
   void begin(double end);  ///< plans the way to the first target and finds the velocity at the present time
   void step(double next_end);  ///< one step; when it reaches its target it plans on to next_end

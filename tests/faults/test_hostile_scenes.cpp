@@ -1,5 +1,6 @@
 #include "limited.hpp"
 #include "output/scratch.hpp"
+#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -131,6 +132,18 @@ TEST_CASE("Steps that nobody can wait for are refused", "[faults]") {
     CHECK(call.code == 2);
     CHECK_THAT(call.err, Contains("more than any run can do"));
   }
+}
+
+TEST_CASE("a settle stage without end is refused before results of an earlier run are touched", "[faults]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "scene.json", "--out", "out"}).code == 0);
+  const std::string before = read_whole_file(scratch / "out/run.json");
+  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--out", "out", "--overwrite", "--set",
+                                                  R"(/settle={"duration": 1e300, "damping": 1})"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("to the end of /settle") && Contains("more than any run can do"));
+  CHECK(read_whole_file(scratch / "out/run.json") == before);
 }
 
 TEST_CASE("A run that nobody would wait for runs until it is stopped", "[faults]") {

@@ -85,6 +85,14 @@ TEST_CASE("Too fast for a fixed step stops and says which step would do", "[figu
   CHECK(trouble_of(scene).empty());
 }
 
+TEST_CASE("What gains its speed within one automatic step does not pass another unseen", "[figures]") {
+  // Half a step of 1e9 m/s2 is a speed for which the next is too long: the block was below the base.
+  Scene scene = from_text(block_and_base(1e-3, "", R"("gravity": [0, -1e9], "time": {"end": 0.1})"));
+  const std::string words = trouble_of(scene);
+  INFO(words);
+  CHECK_THAT(words, Contains("too large for what acts") && Contains("/time/dt below") && Contains("gravity"));
+}
+
 TEST_CASE("A fast thin plate does not pass through another unseen", "[figures]") {
   // 0.01 m thin, at 200 m/s: more than sqrt(alpha H/(2 rho)) = 147 m/s, the spring cannot hold it.
   const std::string text = R"({
