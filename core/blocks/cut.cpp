@@ -17,6 +17,7 @@ constexpr double reach = 1e-8;                // by which ends of lines are leng
 constexpr double thinnest_of_size = 1e-7;     // width below which a block is a sliver, well above the reach
 constexpr double grids[] = {0, 1e-10, 1e-9};  // that vertices are moved to, the first that does
 constexpr double idle = 1e-10;                // off a straight side that a vertex is left out of
+constexpr double loose = 2e-9;                // short of a line by more than rounding: what cut lies on it
 constexpr double hairline = 1e-11;            // width of a face that rounding alone made
 
 // Share of the square around the domain by which faces may miss its area: less than any block that is none.
@@ -105,7 +106,8 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double tolerance = idle * size + 0x1p-50 * farthest;
   std::vector<Block> faces = faces_of(order, size, geos);
   sort_blocks(faces, 1e-9 * size);
-  CutDomain made{{}, loose_ends(order.cuts, faces, 10 * reach * size)};
+  CutDomain made;
+  made.loose_ends = loose_ends(order.cuts, faces, loose * size);
   double sum = 0;
   for (const Block& face : faces) sum += face.area;
   const double mean = faces.empty() ? 0 : sum / static_cast<double>(faces.size());
@@ -113,7 +115,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   std::vector<Block>& blocks = made.blocks;
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
   for (Block& block : blocks) orient(block);
-  name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
+  made.names_of_one_line = name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
   for (Block& block : blocks) {
     drop_idle_vertices(block, tolerance);
     if (std::abs(area_of(block.loops) - block.area) > lost * size * size)

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -32,9 +34,13 @@ struct LooseEnd {
   double gap;  ///< m, to the nearest line or boundary
 };
 
+/// Surfaces of two lines that lie on each other: the one that names the sides there, and the other.
+using NamesOfOneLine = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
 struct CutDomain {
   std::vector<Block> blocks;
   std::vector<LooseEnd> loose_ends;
+  NamesOfOneLine names_of_one_line;
 };
 
 /// The blocks into which lines cut the domain, and where drawn lines cut nothing. Ends of lines that lead

@@ -16,6 +16,19 @@ namespace {
 
 constexpr int closed_flag = 1;
 constexpr int outside_model_space = 8 | 16 | 64;  // polylines in space and meshes
+constexpr int frame_of_spline = 16;               // a vertex that controls a curve and is not on it
+
+/// As UTF-8, which drawings are since 2007; bytes of older ones are taken for Latin-1.
+std::string text_of(std::string_view name) {
+  if (printable(name)) return std::string(name);
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) text += static_cast<char>(0xC0 | byte >> 6);
+    text += static_cast<char>(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
+  }
+  return text;
+}
 
 /// A DXF is a list of groups: a line with a code that tells what the next line is.
 class Parser {
@@ -23,6 +36,8 @@ class Parser {
   Parser(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
 
   DxfDrawing parse() {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
     if (rest_.starts_with("AutoCAD Binary DXF")) fail("this is a binary DXF: save it as text (ASCII)");
     if (rest_.starts_with("AC10")) fail("this is a DWG: save it as a DXF of text (ASCII)");
     if (!next() || code_ != 0 || value_ != "SECTION")
@@ -52,15 +67,18 @@ class Parser {
     return trimmed(line);
   }
 
-  /// The next group; false at the end of the file.
+  /// The next group that is no comment; false at the end of the file.
   bool next() {
-    if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
-    const std::string_view code = take_line();
-    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
-    if (error != std::errc() || end != code.data() + code.size())
-      fail(fmt::format("{} stands where the code of a group, a whole number, should", shown(code)));
-    if (rest_.empty()) fail(fmt::format("the file ends after the code {}", code_));
-    value_ = take_line();
+    constexpr int comment = 999;
+    do {
+      if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
+      const std::string_view code = take_line();
+      const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
+      if (error != std::errc() || end != code.data() + code.size())
+        fail(fmt::format("{} stands where the code of a group, a whole number, should", shown(code)));
+      if (rest_.empty()) fail(fmt::format("the file ends after the code {}", code_));
+      value_ = take_line();
+    } while (code_ == comment);
     return true;
   }
 
@@ -117,7 +135,6 @@ class Parser {
   void begin_entity() {
     layer_ = "0";
     paper_ = false;
-    line_of_entity_ = line_;
   }
 
   void check_plane() const {
@@ -168,12 +185,14 @@ class Parser {
     const bool paper = paper_;
     while (value_ == "VERTEX") {
       Vec2 point;
+      bool of_frame = false;
       read_groups([&](int code) {
         if (code == 10) point.x = number();
         if (code == 20) point.y = number();
+        if (code == 70) of_frame = (flags() & frame_of_spline) != 0;
         check_bulge();
       });
-      points.push_back(point);
+      if (!of_frame) points.push_back(point);
     }
     if (value_ != "SEQEND") fail(fmt::format("{} stands where VERTEX or SEQEND should", shown(value_)));
     read_groups([](int) {});
@@ -191,15 +210,15 @@ class Parser {
     const auto same = [](Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
     if (points.size() < 2) {
-      line_ = line_of_entity_;
-      fail(fmt::format("the {} has no length: expected two different points or more", kind));
+      ++drawing_.passed_over[fmt::format("{} without length", kind)];
+      return;
     }
-    drawing_.lines.push_back({std::string(layer_), std::move(points)});
+    drawing_.lines.push_back({text_of(layer_), std::move(points)});
   }
 
   std::string_view rest_;
   std::string name_;
-  std::size_t line_ = 0, line_of_entity_ = 0;
+  std::size_t line_ = 0;
   int code_ = 0;
   std::string_view value_;
   std::string_view layer_;

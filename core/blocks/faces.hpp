@@ -28,7 +28,8 @@ void drop_idle_vertices(Block& block, double tolerance);
 void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest);
 
 /// Which surface each edge belongs to: that of the first line which it lies on, within `tolerance` (m).
-void name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
-                double tolerance, const Geos& geos);
+/// Returns the names of those that lie on others.
+NamesOfOneLine name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
+                          double tolerance, const Geos& geos);
 
 }  // namespace talus

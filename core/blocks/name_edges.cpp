@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -53,15 +54,20 @@ class Index {
   Index(const Index&) = delete;
   Index& operator=(const Index&) = delete;
 
-  /// The tree tells what it finds in no order: the first segment of the list wins.
-  std::uint32_t surface_of(Vec2 from, Vec2 to) const {
-    Search search{from, to, tolerance_, nullptr};
+  /// The tree tells what it finds in no order: the first segment of the list wins. Of a side too long to be
+  /// that of a crossing `beaten` is told the name of another.
+  std::uint32_t surface_of(Vec2 from, Vec2 to, NamesOfOneLine& beaten) const {
+    Search search{from, to, tolerance_, nullptr, nullptr};
     const double margin = tolerance_;
     const Geos::Geometry around =
         geos_.line({{std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin},
                     {std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin}});
     GEOSSTRtree_query_r(geos_.context(), tree_, around.get(), look_at, &search);
-    return search.found == nullptr ? 0 : search.found->surface;
+    if (search.found == nullptr) return 0;
+    const bool long_enough = std::hypot(to.x - from.x, to.y - from.y) > 10 * tolerance_;
+    if (search.beaten != nullptr && long_enough)
+      beaten.emplace(search.found->surface, search.beaten->surface);
+    return search.found->surface;
   }
 
  private:
@@ -69,14 +75,18 @@ class Index {
     Vec2 from, to;
     double tolerance;
     const Segment* found;
+    const Segment* beaten;  ///< the first of another name
   };
 
   static void look_at(void* item, void* data) {
     const auto* segment = static_cast<const Segment*>(item);
     auto& search = *static_cast<Search*>(data);
-    if (search.found != nullptr && search.found < segment) return;
-    if (is_near(*segment, search.from, search.tolerance) && is_near(*segment, search.to, search.tolerance))
-      search.found = segment;
+    if (!is_near(*segment, search.from, search.tolerance) || !is_near(*segment, search.to, search.tolerance))
+      return;
+    const Segment* other = segment;
+    if (search.found == nullptr || segment < search.found) std::swap(search.found, other);
+    if (other == nullptr || other->surface == search.found->surface) return;
+    if (search.beaten == nullptr || other < search.beaten) search.beaten = other;
   }
 
   const std::vector<Segment>& segments_;
@@ -88,8 +98,9 @@ class Index {
 
 }  // namespace
 
-void name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
-                double tolerance, const Geos& geos) {
+NamesOfOneLine name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
+                          double tolerance, const Geos& geos) {
+  NamesOfOneLine beaten;
   const std::vector<Segment> segments = named_segments(domain, cuts);
   const Index index(segments, tolerance, geos);
   for (Block& block : blocks) {
@@ -97,9 +108,11 @@ void name_edges(std::vector<Block>& blocks, const Block& domain, const std::vect
     for (const Ring& ring : block.loops) {
       std::vector<std::uint32_t>& names = block.edge_surface.emplace_back();
       for (std::size_t i = 0; i < ring.size(); ++i)
-        names.push_back(segments.empty() ? 0 : index.surface_of(ring[i], ring[(i + 1) % ring.size()]));
+        names.push_back(segments.empty() ? 0
+                                         : index.surface_of(ring[i], ring[(i + 1) % ring.size()], beaten));
     }
   }
+  return beaten;
 }
 
 }  // namespace talus

@@ -51,6 +51,12 @@ void question_interface(const Scene& scene, std::size_t row, std::vector<std::st
         "degrees",
         row, degrees, std::atan(degrees) * 180 / std::numbers::pi));
   }
+  if (degrees > 0 && value("tangential_stiffness") == 0) {
+    raised.push_back(fmt::format(
+        "tangential_stiffness of /interfaces/{} is 0: its friction of {:.4g} degrees never acts, for what "
+        "sticks is held by it",
+        row, degrees));
+  }
   if (value("normal_stiffness") == 0) {
     raised.push_back(
         fmt::format("normal_stiffness of /interfaces/{} is 0: bodies go through each other there", row));

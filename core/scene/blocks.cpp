@@ -159,6 +159,36 @@ class Expander {
                     nearest.gap));
   }
 
+  /// Of units or an origin that do not fit.
+  void warn_of_drawing_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
+    if (joints.drawing.empty()) return;
+    std::vector<Vec2> points;
+    for (std::size_t i = joints.first_of_drawing; i < joints.cuts.size(); ++i) {
+      const std::vector<Vec2>& line = joints.cuts[i].points;
+      const Box box = box_around(line);
+      if (box.low.x <= domain.high.x && box.high.x >= domain.low.x && box.low.y <= domain.high.y &&
+          box.high.y >= domain.low.y)
+        return;
+      points.insert(points.end(), line.begin(), line.end());
+    }
+    if (points.empty()) return;
+    const Box drawing = box_around(points);
+    result.warnings.push_back(fmt::format(
+        "{}: no line of {} meets the domain: it is drawn from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), the "
+        "domain "
+        "goes from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}); is it in metres, and are both from one origin?",
+        section.pointer_to("dxf"), joints.drawing, drawing.low.x, drawing.low.y, drawing.high.x,
+        drawing.high.y, domain.low.x, domain.low.y, domain.high.x, domain.high.y));
+  }
+
+  void warn_of_names_of_one_line(const Section& section, const Joints& joints, const NamesOfOneLine& names) {
+    for (const auto& [first, other] : names) {
+      result.warnings.push_back(fmt::format(
+          "{}: lines of the surfaces '{}' and '{}' lie on each other: the sides there are of '{}'",
+          section.pointer(), joints.surfaces[first], joints.surfaces[other], joints.surfaces[first]));
+    }
+  }
+
   std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
                          double smallest_share) {
     const Box box = box_around(domain.loops[0]);
@@ -179,7 +209,9 @@ class Expander {
       order.split_share = joints.split_share;
       order.split_seed = joints.split_seed;
       CutDomain made = cut_domain(order, geos);
+      warn_of_drawing_elsewhere(section, joints, box);
       warn_of_loose_ends(section, made.loose_ends);
+      warn_of_names_of_one_line(section, joints, made.names_of_one_line);
       if (made.blocks.empty()) {
         mistakes_.add(
             section.pointer(),

@@ -100,6 +100,8 @@ constexpr std::pair<int, std::string_view> foreign_units[] = {{1, "inches"},    
 
 void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& section, Joints& joints) {
   const std::string pointer = section.pointer_to("dxf");
+  joints.drawing = file;
+  joints.first_of_drawing = joints.cuts.size();
   std::set<std::string> layers;
   for (const DxfLine& line : drawing.lines) {
     if (line.layer != "0" && layers.insert(line.layer).second)

@@ -14,7 +14,9 @@ namespace talus {
 /// All that cuts a domain, as a scene gives it.
 struct Joints {
   std::vector<JointSet> sets;
-  std::vector<Cut> cuts;  ///< "joints" and those of a drawing
+  std::vector<Cut> cuts;             ///< "joints" and those of a drawing
+  std::string drawing;               ///< its file, if there is one
+  std::size_t first_of_drawing = 0;  ///< in cuts; those behind are of it, too
   std::optional<Bricks> bricks;
   std::optional<Sites> sites;
   double split_share = 0;  ///< of quadrilaterals that become triangles

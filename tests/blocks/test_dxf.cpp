@@ -71,6 +71,38 @@ TEST_CASE("line ends of Windows, points twice in a row and other entities do not
   CHECK(read.passed_over.at("LINE not of the plane") == 1);  // it stands on a sheet
 }
 
+TEST_CASE("drawings of other programs are read as they come", "[blocks]") {
+  const DxfDrawing commented = read_dxf_text(
+      "\xEF\xBB\xBF"
+      "999\nmade by hand\n" +
+          drawing("999\nnote\n" + line),
+      "d.dxf");
+  CHECK(commented.lines.size() == 1);
+  // A point twice is no line.
+  const DxfDrawing point = read_dxf_text(drawing("  0\nLINE\n 10\n1\n 11\n1\n" + line), "d.dxf");
+  CHECK(point.lines.size() == 1);
+  CHECK(point.passed_over.at("LINE without length") == 1);
+  // Of a curve what controls it is not on it.
+  const auto vertex = [](const char* x, const char* flags) {
+    return fmt::format("  0\nVERTEX\n 10\n{}\n 20\n0\n 70\n{}\n", x, flags);
+  };
+  const DxfDrawing curve =
+      read_dxf_text(drawing("  0\nPOLYLINE\n 70\n4\n" + vertex("0", "8") + vertex("1", "8") +
+                            vertex("5", "16") + vertex("7", "16") + "  0\nSEQEND\n"),
+                    "d.dxf");
+  REQUIRE(curve.lines.size() == 1);
+  CHECK(curve.lines[0].points.size() == 2);
+  CHECK(curve.lines[0].points[1].x == 1);
+  // Older ones have no UTF-8.
+  std::string named = line;
+  named.replace(named.find("fault"), 5,
+                "Kl\xFC"
+                "fte");
+  CHECK(read_dxf_text(drawing(named), "d.dxf").lines[0].layer ==
+        "Kl\xC3\xBC"
+        "fte");
+}
+
 TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   CHECK_THAT(refusal("hello\n"), Contains("d.dxf:1: 'hello' stands where the code"));
   CHECK_THAT(refusal("  0\nEOF\n"), Contains("d.dxf:2: this is no DXF"));
@@ -81,7 +113,6 @@ TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n"), Contains("ends after the code 10"));
   CHECK_THAT(refusal("  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n1\n"), Contains("ends within"));
   CHECK_THAT(refusal(drawing("  0\nLINE\n 10\nx\n")), Contains("d.dxf:18: 'x' is no number"));
-  CHECK_THAT(refusal(drawing("  0\nLINE\n 10\n1\n 11\n1\n")), Contains("d.dxf:16: the LINE has no length"));
   std::string arc = light;
   arc.insert(arc.find(" 10\n0.3"), " 42\n0.5\n");
   CHECK_THAT(refusal(drawing(arc)), Contains("arc"));
@@ -114,6 +145,30 @@ TEST_CASE("what a drawing has besides lines raises a warning", "[blocks]") {
   const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
   REQUIRE(scene.warnings.size() == 1);
   CHECK_THAT(scene.warnings[0], Contains("joints.dxf: 1 of the kind TEXT passed over"));
+}
+
+TEST_CASE("a drawing that misses the domain raises a warning", "[blocks]") {
+  const Scratch scratch;
+  std::string far = line;
+  for (std::size_t at = 0; (at = far.find(" 20\n", at)) != std::string::npos; at += 4)
+    far.insert(at + 4, "5000");
+  for (std::size_t at = 0; (at = far.find(" 21\n", at)) != std::string::npos; at += 4)
+    far.insert(at + 4, "5000");
+  scratch.write("far.dxf", drawing(far));
+  const Scene scene =
+      read_in(scratch, generator_scene(R"("dxf": "far.dxf", "joint_sets": [{"dip": 0, "spacing": 0.4}])"));
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0],
+             Contains("/blocks/0/dxf: no line of ") && Contains("meets the domain") && Contains("in metres"));
+}
+
+TEST_CASE("lines of two names on each other raise a warning", "[blocks]") {
+  const Scratch scratch;
+  const Scene scene = read_in(scratch, generator_scene(R"("joints": [
+      {"points": [[-1, 0.5], [2, 0.5]], "surface": "weak"}, {"points": [[-1, 0.5], [2, 0.5]], "surface": "strong"}])"));
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0],
+             Contains("'weak' and 'strong' lie on each other: the sides there are of 'weak'"));
 }
 
 TEST_CASE("a drawing in another unit than metres raises a warning", "[blocks]") {

@@ -185,6 +185,16 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
   CHECK(three.bodies.size() == 3);
   REQUIRE(three.warnings.size() == 1);
   CHECK_THAT(three.warnings[0], Contains("at (0.5, 0.499), is 0.001 m short of"));
+  // Short by the rounding of a drawing with few decimals, and by less than ends are lengthened by.
+  for (const char* end : {"0.49999", "0.4999999", "0.49999998", "0.499999999"}) {
+    CAPTURE(end);
+    const std::string drawn = fmt::format(
+        R"("joints": [{{"points": [[-1, 0.5], [2, 0.5]]}}, {{"points": [[0.5, -1], [0.5, {}]]}}])", end);
+    const Scene scene = sample::read(generator_scene(drawn));
+    const bool cuts = std::string(end) == "0.499999999";
+    CHECK(scene.bodies.size() == (cuts ? 3 : 2));
+    CHECK(scene.warnings.size() == (cuts ? 0 : 1));
+  }
   // Beside a mistake, too, which may come from it.
   try {
     sample::read(

@@ -152,6 +152,10 @@ TEST_CASE("A reviewer asks about values that look as if they were in other units
                "friction_angle of /interfaces/0 is 0.6 degrees: is it a coefficient? that would be "
                "30.96 degrees"));
   CHECK(warned(text, "normal_stiffness of /interfaces/0 is 0"));
+  CHECK_FALSE(warned(text, "tangential_stiffness"));
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 0, "friction_angle": 35,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  CHECK(warned(text, "tangential_stiffness of /interfaces/0 is 0: its friction of 35 degrees never acts"));
   text.bodies = box("top", 0.5, 2, 1.5, 3);  // which meets nothing
   CHECK_FALSE(warned(text, "normal_stiffness"));
 }
