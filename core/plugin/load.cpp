@@ -74,6 +74,8 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
     return "found a folder, wanted a talus plugin (lib*.so); name the file, or give the folder to "
            "--plugin-path";
   }
+  if (!fs::is_regular_file(file, problem))
+    return "found a pipe or a device, wanted a talus plugin (lib*.so); name the file";
   const Library* library = nullptr;
   try {
     const fs::path variant = variant_of(file, registry.simd);

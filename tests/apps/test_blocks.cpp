@@ -24,6 +24,15 @@ const std::string wall = R"(// A small wall.
 
 }  // namespace
 
+TEST_CASE("a scene is not replaced by its plain bodies", "[apps]") {
+  const Scratch scratch;
+  scratch.write("wall.json", wall);
+  const Call call = call_talus(scratch.folder(), {"blocks", "wall.json", "-o", "./wall.json"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("is the scene itself"));
+  CHECK(read_whole_file(scratch / "wall.json") == wall);
+}
+
 TEST_CASE("a scene written with plain bodies reads and runs to the same bits", "[apps]") {
   const Scratch scratch;
   scratch.write("wall.json", wall);

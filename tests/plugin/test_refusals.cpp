@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <sys/stat.h>
+
 #include <unistd.h>
 
 #include <fstream>
@@ -88,6 +90,14 @@ TEST_CASE("A missing file and a folder are refused as such", "[plugin]") {
              Contains("libnowhere.so: found no such file") && Contains("check the path"));
   CHECK_THAT(refusal_of(registry, TALUS_TEST_LIBRARIES),
              Contains("found a folder") && Contains("give the folder to --plugin-path"));
+}
+
+TEST_CASE("a pipe among plugins is refused, not waited for", "[plugin]") {
+  const Scratch scratch;
+  const std::filesystem::path pipe = scratch / "libpipe.so";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  Registry registry;
+  CHECK_THAT(refusal_of(registry, pipe), Contains("found a pipe or a device"));
 }
 
 TEST_CASE("What a constructor throws becomes words with the file and the component", "[plugin]") {
