@@ -80,8 +80,11 @@ int advise_command(const Words& words) {
   fmt::print("for {:.3g} % take", 100 * error);
   for (const Override& change : plan.overrides(plan.points[*best]))
     fmt::print(" --set {}={}", change.pointer, change.value);
-  fmt::print("\nerror {:.3g} %, {:.3g} s of CPU", 100 * *study.findings.runs[*best].error,
-             study.runs[*best].cpu);
+  fmt::print("\nerror {:.3g} %", 100 * *study.findings.runs[*best].error);
+  if (study.findings.error_of_reference)
+    fmt::print(" and about {:.2g} % of what it is measured against",
+               100 * *study.findings.error_of_reference);
+  fmt::print(", {:.3g} s of CPU", study.runs[*best].cpu);
   if (study.findings.reference)
     fmt::print(", {:.3g} times less than the run it is measured against",
                study.runs[*study.findings.reference].cpu / study.runs[*best].cpu);

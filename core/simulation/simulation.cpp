@@ -120,6 +120,7 @@ bool Simulation::advance(const Pause& pause) {
     s.started = true;
     s.set_initial_velocities();
     if (s.scene.settle) {
+      s.summary.dt = 0;  // of the run, not of the stage before
       s.start = s.motion.bodies;
       s.start_displacement = s.motion.patch_displacement;
     }

@@ -2,6 +2,7 @@
 
 #include "compare/deviation.hpp"
 #include "output/input_error.hpp"
+#include "study/orders.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 
 namespace talus {
 namespace {
@@ -49,16 +49,13 @@ std::optional<double> number_in(const std::string& text) {
   return !text.empty() && *end == 0 && value > 0 ? std::optional(value) : std::nullopt;
 }
 
-double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto count = static_cast<double>(x.size());
-  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count,
-               mean_y = std::accumulate(y.begin(), y.end(), 0.0) / count;
-  double across = 0, along = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    across += (x[i] - mean_x) * (y[i] - mean_y);
-    along += (x[i] - mean_x) * (x[i] - mean_x);
+std::string words_of_nothing(const StudyPlan& plan, const std::vector<StudyRun>& runs) {
+  std::string words = "no run of the study finished: there is nothing to measure";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].trouble.empty())
+      return fmt::format("{}; that with {}: {}", words, plan.words(plan.points[i]), runs[i].trouble);
   }
-  return across / along;
+  return words;
 }
 
 /// Of errors: what rounding makes in a run says nothing of its steps.
@@ -76,30 +73,34 @@ bool is_resolution(const std::string& pointer) {
          key.ends_with("_spring");
 }
 
-std::vector<ObservedOrder> observed_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs,
-                                           const std::vector<StudyFinding>& findings) {
-  std::vector<ObservedOrder> orders;
+/// Against a run, of those families that it belongs to: in others it differs by more than their number, and
+/// errors need not vanish towards it.
+void find_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs, StudyFindings& findings) {
   for (const StudyFamily& family : families(plan, runs)) {
     if (!is_resolution(plan.pointers[family.variation])) continue;
+    const auto has = [&](std::size_t run) { return std::ranges::count(family.runs, run) != 0; };
+    if (findings.reference && !has(*findings.reference)) continue;
     ObservedOrder order{{family.variation, {}}, {}};
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
-      if (!findings[run].error || !(*findings[run].error > round_off)) continue;
+      if (!findings.runs[run].error || !(*findings.runs[run].error > round_off)) continue;
       order.runs.push_back(run);
-      sizes.push_back(std::log(size_of(plan, family.variation, run, runs[run])));
-      errors.push_back(std::log(*findings[run].error));
+      sizes.push_back(size_of(plan, family.variation, run, runs[run]));
+      errors.push_back(*findings.runs[run].error);
     }
     if (order.runs.size() < 2) continue;
-    // Runs of one size tell no order.
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
-      if (sizes[i] != sizes[i + 1])
-        order.orders.push_back((errors[i] - errors[i + 1]) / (sizes[i] - sizes[i + 1]));
-    }
-    if (order.orders.empty()) continue;
-    order.fit = fitted_slope(sizes, errors);
-    orders.push_back(std::move(order));
+    std::optional<double> of_reference;
+    if (findings.reference)
+      of_reference = size_of(plan, family.variation, *findings.reference, runs[*findings.reference]);
+    const Convergence convergence(sizes, errors, of_reference);
+    order.orders = convergence.between_neighbours();
+    const std::optional<double> fit = convergence.fit();
+    if (!fit) continue;
+    order.fit = *fit;
+    if (const auto missed = convergence.error_of_reference())
+      findings.error_of_reference = findings.error_of_reference.value_or(0) + *missed;
+    findings.orders.push_back(std::move(order));
   }
-  return orders;
 }
 
 }  // namespace
@@ -130,7 +131,11 @@ double number_of(const StudyPlan& plan, std::size_t variation, std::size_t run) 
 std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findings) {
   if (!findings.reference) return "the reference file";
   const std::string run = plan.words(plan.points[*findings.reference]);
-  if (!findings.reference_is_one_of_many) return run + " (most work)";
+  if (!findings.reference_is_one_of_many) {
+    if (!findings.error_of_reference) return run + " (most work)";
+    return fmt::format("{} (most work; misses about {:.2g} % itself)", run,
+                       100 * *findings.error_of_reference);
+  }
   return run + " (first of several that did the most work, and no better than they are: give a --reference)";
 }
 
@@ -140,7 +145,7 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
   findings.column = column;
   findings.runs.resize(runs.size());
   const std::optional<std::size_t> finest = most_work(runs);
-  if (!finest) throw InputError("no run of the study finished: there is nothing to measure");
+  if (!finest) throw InputError(words_of_nothing(plan, runs));
   if (!reference) {
     findings.reference = finest;
     findings.reference_is_one_of_many = std::count_if(runs.begin(), runs.end(), [&](const StudyRun& run) {
@@ -170,7 +175,7 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     findings.runs[i].error = found->rms / scale;
   }
   mark_front(runs, findings.runs);
-  findings.orders = observed_orders(plan, runs, findings.runs);
+  find_orders(plan, runs, findings);
   return findings;
 }
 
@@ -178,7 +183,8 @@ std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const 
                                            double error) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!findings.runs[i].error || *findings.runs[i].error > error) continue;
+    if (!findings.runs[i].error) continue;
+    if (*findings.runs[i].error + findings.error_of_reference.value_or(0) > error) continue;
     if (!best || runs[i].cpu < runs[*best].cpu) best = i;
   }
   return best;

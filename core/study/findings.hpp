@@ -28,10 +28,10 @@ std::vector<StudyFamily> families(const StudyPlan& plan, const std::vector<Study
 /// The number that a run of a family has.
 double number_of(const StudyPlan& plan, std::size_t variation, std::size_t run);
 
-/// Errors of a family, e ~ h^order.
+/// Errors of a family, e ~ h^order (see Convergence).
 struct ObservedOrder : StudyFamily {
   std::vector<double> orders;  ///< between neighbours in `runs`
-  double fit = 0;              ///< slope of log e over log h, by least squares
+  double fit = 0;              ///< of all runs, by least squares
 };
 
 struct StudyFindings {
@@ -40,6 +40,8 @@ struct StudyFindings {
   bool reference_is_one_of_many = false;  ///< others did as much work, so it may be no better than they are
   std::vector<StudyFinding> runs;
   std::vector<ObservedOrder> orders;
+  /// What the reference run itself misses by these orders, as a share like `error`, which it comes on top of.
+  std::optional<double> error_of_reference;
 };
 
 /// What the errors are measured against, in words.
@@ -50,7 +52,7 @@ std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findi
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
                        const std::optional<Series>& reference);
 
-/// The cheapest run with at most this error, if there is one.
+/// The cheapest run with at most this error, that of the reference included, if there is one.
 std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,
                                            double error);
 

@@ -101,6 +101,7 @@ std::string study_json(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     for (const std::size_t run : order.runs) entry["runs"].push_back(runs[run].folder.filename().string());
     json["orders"].push_back(entry);
   }
+  json["error_of_reference [-]"] = optional_json(findings.error_of_reference);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

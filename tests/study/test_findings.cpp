@@ -1,4 +1,5 @@
 #include "study/findings.hpp"
+#include "study/orders.hpp"
 
 #include "output/input_error.hpp"
 #include "study/sample_runs.hpp"
@@ -8,16 +9,20 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <string>
+
 using namespace talus;
 using Catch::Matchers::Contains;
 
 TEST_CASE("A study's errors are those against its finest run, and give its front and its order", "[study]") {
   const std::vector<StudyRun> runs = stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
-                                              run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
+                                              run_of(0, 0.5, 5, "stopped"), run_of(0.0025, 9, 90)});
   const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
   CHECK(findings.reference == 4u);
-  CHECK(*findings.runs[0].error == Approx(0.08));
-  CHECK(*findings.runs[1].rms == Approx(0.04));
+  CHECK(*findings.runs[0].error == Approx(0.1575 / 2.0025));
+  CHECK(*findings.runs[1].rms == Approx(0.0375));
+  CHECK(*findings.error_of_reference == Approx(0.0025 / 2.0025));
   CHECK_FALSE(findings.runs[3].error);
   CHECK_FALSE(findings.runs[4].error);
   for (const std::size_t i : {0, 1, 2}) CHECK(findings.runs[i].on_front);
@@ -27,12 +32,13 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK(findings.orders[0].orders[1] == Approx(2));
   CHECK(findings.orders[0].fit == Approx(2));
   CHECK(cheapest_within(findings, runs, 0.03) == 1u);
+  CHECK(cheapest_within(findings, runs, 0.019) == 2u);  // 0.0187 and what the reference misses
   CHECK(cheapest_within(findings, runs, 0.5) == 0u);
   CHECK_FALSE(cheapest_within(findings, runs, 1e-6));
 
   const std::string table = study_table(sample_steps(), runs, findings);
-  CHECK_THAT(table, Contains("dt=5e-4 (most work)") && Contains("2.00 2.00; all: 2.00") &&
-                        Contains("failed: dt=8e-3: it <blew> up"));
+  CHECK_THAT(table, Contains("dt=5e-4 (most work; misses about 0.12 % itself)") &&
+                        Contains("2.00 2.00; all: 2.00") && Contains("failed: dt=8e-3: it <blew> up"));
   const auto json = nlohmann::json::parse(study_json(sample_steps(), runs, findings));
   CHECK(json["runs"][3]["trouble"] == "it <blew> up");
   CHECK(json["runs"][3]["error [-]"].is_null());
@@ -40,10 +46,50 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK_THAT(study_svg(sample_steps(), runs, findings), Contains("dt=2e-3"));
 }
 
+TEST_CASE("Orders allow for what the reference run misses, at either end of its family", "[study]") {
+  for (const double order : {0.5, 1.0, 2.0, 3.0}) {
+    const auto errors = [&](const std::vector<double>& sizes, double reference) {
+      std::vector<double> found;
+      for (const double h : sizes) found.push_back(std::abs(std::pow(h, order) - std::pow(reference, order)));
+      return found;
+    };
+    const std::vector<double> steps{4e-3, 2e-3, 1e-3};
+    const Convergence fine(steps, errors(steps, 5e-4), 5e-4);
+    for (const double found : fine.between_neighbours()) CHECK(found == Approx(order).epsilon(1e-9));
+    CHECK(*fine.fit() == Approx(order).epsilon(1e-6));
+    CHECK(*fine.error_of_reference() == Approx(std::pow(5e-4, order)).epsilon(1e-6));
+    // Springs are the finer the stiffer.
+    std::vector<double> springs{4e9, 2e9, 1e9}, missed;
+    for (const double k : springs) missed.push_back(std::pow(k, -order) - std::pow(8e9, -order));
+    const Convergence stiff(springs, missed, 8e9);
+    for (const double found : stiff.between_neighbours()) CHECK(found == Approx(-order).epsilon(1e-9));
+    CHECK(*stiff.error_of_reference() == Approx(std::pow(8e9, -order)).epsilon(1e-6));
+    // Against an exact answer.
+    const Convergence exact(steps, errors(steps, 0), std::nullopt);
+    for (const double found : exact.between_neighbours()) CHECK(found == Approx(order).epsilon(1e-9));
+    CHECK_FALSE(exact.error_of_reference());
+  }
+  // What does not fall has no order that a reference could be off by.
+  const Convergence flat({4, 2, 1}, {1, 1, 1.01}, 0.5);
+  CHECK_FALSE(flat.error_of_reference());
+}
+
+TEST_CASE("Runs that differ from the reference by more than a step tell no order", "[study]") {
+  const StudyPlan plan = grid({{"/time/dt", {"4e-3", "2e-3"}}, {"/contact/model", {"one", "other"}}});
+  std::vector<StudyRun> runs;
+  for (const StudyPoint& point : plan.points) {
+    const double dt = std::stod(point.values[0]), law = point.values[1] == "one" ? 0 : 0.3;
+    runs.push_back(run_of(law + 1e4 * dt * dt, 1, law + 1 / dt));
+    runs.back().dt = dt;
+  }
+  const StudyFindings findings = find_out(plan, runs, sample_column, std::nullopt);
+  CHECK(findings.orders.empty());
+}
+
 TEST_CASE("The order in the time step is that in the steps that ran", "[study]") {
   // Of 4e-3 and 2e-3 s, rounded to whole steps per output, both ran with 2e-3.
   std::vector<StudyRun> runs = stepped({run_of(0.04, 2, 20), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
-                                        run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
+                                        run_of(0, 0.5, 5, "stopped"), run_of(0.0025, 9, 90)});
   runs[0].dt = runs[1].dt;
   const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
   REQUIRE(findings.orders.size() == 1);
@@ -63,7 +109,7 @@ TEST_CASE("What rounding makes tells no order", "[study]") {
 
 TEST_CASE("There is an order in what resolves, none in what a scene is", "[study]") {
   const std::vector<StudyRun> runs = stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
-                                              run_of(0, 0.5, 5, "stopped"), run_of(0, 9, 90)});
+                                              run_of(0, 0.5, 5, "stopped"), run_of(0.0025, 9, 90)});
   StudyPlan plan = sample_steps();
   for (const char* resolves : {"/cover/size", "/time/safety", "/interfaces/0/normal_stiffness"}) {
     plan.pointers[0] = resolves;

@@ -18,7 +18,7 @@ std::size_t times_in(const std::string& text, const std::string& part) {
 /// The three coarser steps, one that failed, and the reference.
 std::vector<StudyRun> sample_runs() {
   return stepped({run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40), run_of(0, 0.5, 5, "stopped"),
-                  run_of(0, 9, 90)});
+                  run_of(0.0025, 9, 90)});
 }
 
 std::string page_of(const StudyPlan& plan, const std::vector<StudyRun>& runs) {
@@ -39,6 +39,7 @@ TEST_CASE("The page of a study holds charts, orders, all runs and what failed", 
                        Contains("Largest energy residual") && Contains("Largest overlap"));
   CHECK_THAT(page, Contains("<td>reference</td>") && Contains("it &lt;blew&gt; up") &&
                        Contains("1 of them failed") && Contains("<td class=\"words\">2.00 2.00 </td>"));
+  CHECK_THAT(page, Contains("most work; misses about 0.12 % itself"));
   CHECK(times_in(page, "★ run") == 3);
   CHECK(times_in(page, "<tr>") == 1 + runs.size() + 2);  // heads, runs, orders
   // What failed stands below what finished, though it cost less.
