@@ -146,7 +146,8 @@ void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
   double smallest = 0;
   for (std::size_t i = 0; i < order.scenes.size(); ++i) {
     const Simulation simulation(order.scenes[i], RunSettings{});
-    const double own = simulation.automatic_dt();
+    const std::optional<double>& given = order.scenes[i].time.dt;
+    const double own = order.variation.of_time() && given ? *given : simulation.automatic_dt();
     comparison.runs[i].own_dt = own;
     smallest = i == 0 ? own : std::min(smallest, own);
   }
@@ -164,7 +165,8 @@ void add_deviations(const ComparisonOrder& order, Comparison& comparison, std::s
   for (std::size_t column = 0; column < history.names.size(); ++column) {
     const auto other_column = other.column(history.names[column]);
     if (!other_column) continue;
-    const auto found = deviation(history, column, other, *other_column);
+    const auto found =
+        deviation(history, column, other, *other_column, from_reference ? Between::line : Between::unknown);
     if (!found) continue;
     ColumnDeviation& entry = comparison.deviations.emplace_back(
         ColumnDeviation{history.names[column], run, from_reference, *found, {}});
@@ -212,9 +214,14 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
     if (order.reference) add_deviations(order, comparison, run, order.reference->series, true);
   }
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
-    const auto unfinished = [](const ComparedRun& each) { return each.result.end != RunEnd::finished; };
+    const double end = order.scenes[0].time.end * (1 - 1e-9);
+    const auto ends_early = [&](const Series& series) { return !(series.time.back() >= end); };
+    const auto unfinished = [&](const ComparedRun& each) {
+      return each.result.end != RunEnd::finished || ends_early(each.result.history);
+    };
     return unfinished(comparison.runs[run]) ||
-           (!tolerance.against_reference && unfinished(comparison.runs[0]));
+           (tolerance.against_reference ? ends_early(order.reference->series)
+                                        : unfinished(comparison.runs[0]));
   };
   for (const Tolerance& tolerance : order.scenes[0].tolerances) {
     if (tolerance.against_reference && !order.reference) {
@@ -240,6 +247,42 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   }
 }
 
+namespace {
+
+/// Of a run at steps of `dt` at most, which meet every output time.
+double steps_at(const Scene& scene, double dt) {
+  const auto of_span = [&](double span) { return span > 0 ? std::ceil(span / dt * (1 - 1e-9)) : 0.0; };
+  const double interval = std::min(scene.output.history, scene.time.end),
+               whole = std::floor(scene.time.end / interval * (1 + 1e-12)),
+               rest = scene.time.end - whole * interval;
+  return whole * of_span(interval) + (rest > 1e-9 * interval ? of_span(rest) : 0.0);
+}
+
+/// Where nothing but the vote at the start bound the step, it bounds that of each run by itself, too.
+void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    ComparedRun& run = comparison.runs[i];
+    if (run.result.end != RunEnd::finished) continue;
+    const auto made = static_cast<double>(run.result.summary.steps);
+    if (!comparison.common_dt || !std::isfinite(*comparison.common_dt)) {
+      run.own_steps = made;
+      continue;
+    }
+    const double due = steps_at(order.scenes[i], *comparison.common_dt);
+    if (std::abs(made - due) <= 0.01 * due) {
+      run.own_steps = steps_at(order.scenes[i], run.own_dt);
+      continue;
+    }
+    comparison.warnings.push_back(
+        fmt::format("'{}' took {} steps, where the largest step for all makes {:.0f}: speed, contacts or a "
+                    "stage bound its "
+                    "own more from some time on, so what it costs at its own step is not told",
+                    run.value, run.result.summary.steps, due));
+  }
+}
+
+}  // namespace
+
 Comparison compare(const ComparisonOrder& order) {
   check_order(order);
   Comparison comparison;
@@ -247,6 +290,7 @@ Comparison compare(const ComparisonOrder& order) {
   for (std::size_t i = 0; i < order.scenes.size(); ++i) comparison.runs[i].value = order.variation.values[i];
   vote_dt(order, comparison);
   SideBySide(order, comparison).run();
+  count_own_steps(order, comparison);
   evaluate(order, comparison);
   return comparison;
 }

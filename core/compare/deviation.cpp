@@ -1,19 +1,33 @@
 #include "compare/deviation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 namespace talus {
 
+namespace {
+
+/// How many of some times lie within others.
+std::size_t count_within(const std::vector<double>& times, const std::vector<double>& others) {
+  if (times.empty() || others.empty()) return 0;
+  const auto from = std::lower_bound(times.begin(), times.end(), others.front());
+  return static_cast<std::size_t>(std::upper_bound(from, times.end(), others.back()) - from);
+}
+
+}  // namespace
+
 std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
-                                   std::size_t other_column) {
+                                   std::size_t other_column, Between between) {
   Deviation found;
   double squares = 0;
-  for (std::size_t row = 0; row < series.time.size(); ++row) {
-    const double time = series.time[row];
+  const bool other_is_coarser = between == Between::unknown &&
+                                count_within(other.time, series.time) < count_within(series.time, other.time);
+  for (const double time : other_is_coarser ? other.time : series.time) {
+    const std::optional<double> value = interpolate(series.time, series.values[column], time);
     const std::optional<double> expected = interpolate(other.time, other.values[other_column], time);
-    if (!expected) continue;
-    const double difference = series.values[column][row] - *expected;
+    if (!value || !expected) continue;
+    const double difference = *value - *expected;
     // Written so that a NaN is kept as the largest.
     if (found.times == 0 ||
         (!std::isnan(found.largest) && !(std::abs(difference) <= std::abs(found.largest)))) {

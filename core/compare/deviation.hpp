@@ -20,10 +20,15 @@ struct Deviation {
   std::size_t times = 0;    ///< how many were compared
 };
 
-/// Of `column` in `series` from `other_column` in `other`, which is interpolated linearly. Nothing if no time
-/// is common to both.
+/// What `other` is between its rows: a line, as a reference file is by definition; or another run, of which
+/// nothing is known there.
+enum class Between { line, unknown };
+
+/// Of `column` in `series` from `other_column` in `other`, at the times of `series`; where those of another
+/// run are further apart, at them. The other of the two is interpolated linearly. Nothing if no time is
+/// common to both.
 std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
-                                   std::size_t other_column);
+                                   std::size_t other_column, Between between);
 
 /// The same at one time, both interpolated.
 std::optional<double> deviation_at(const Series& series, std::size_t column, const Series& other,

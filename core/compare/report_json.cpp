@@ -75,19 +75,14 @@ Json tolerances_json(const Comparison& comparison) {
 
 CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
   CostRatio ratio;
-  const auto finished = [](const ComparedRun& each) { return each.result.end == RunEnd::finished; };
-  const auto own_steps = [](const ComparedRun& each) {
-    const RunSummary& summary = each.result.summary;
-    return std::ceil(static_cast<double>(summary.steps) * summary.dt / each.own_dt);
-  };
   const auto per_step = [](const ComparedRun& each) {
     return each.result.stepping.cpu / static_cast<double>(each.result.summary.steps);
   };
-  if (finished(run)) ratio.own_steps = own_steps(run);
+  ratio.own_steps = run.own_steps;
   if (run.result.summary.steps == 0 || baseline.result.summary.steps == 0) return ratio;
   ratio.at_equal_dt = per_step(run) / per_step(baseline);
-  if (finished(run) && finished(baseline))
-    ratio.at_own_dt = *ratio.at_equal_dt * own_steps(run) / own_steps(baseline);
+  if (run.own_steps && baseline.own_steps)
+    ratio.at_own_dt = *ratio.at_equal_dt * *run.own_steps / *baseline.own_steps;
   return ratio;
 }
 
@@ -104,11 +99,15 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
     json["reference"] = {
         {"file", order.reference->file}, {"copy", reference_copy}, {"xxh3_128", order.reference->hash}};
   json["meaning"] = {
-      {"deviation", "run minus baseline, or run minus reference (linear between its rows, within its range)"},
+      {"deviation",
+       "run minus baseline, at the times of the coarser history, or run minus reference (linear between "
+       "its rows, within its range)"},
       {"cost_at_equal_dt", "CPU seconds per step, over the baseline's; settling and writing not counted"},
       {"cost_at_own_dt",
        "CPU seconds per step times the steps needed at own_dt, over the baseline's: computed, not run"},
-      {"own_dt", "the automatic time step of the run by itself, at its start"},
+      {"own_dt", "the time step of the run by itself at its start: automatic, or as varied"},
+      {"own_steps",
+       "of own_dt at most, each output met; null where speed, contacts or stages bound the step more"},
       {"settled_difference", "largest distance of a vertex from where it is in the baseline, at t = 0"}};
   json["runs"] = Json::array();
   for (const ComparedRun& run : comparison.runs) json["runs"].push_back(run_json(run, comparison.runs[0]));

@@ -168,7 +168,8 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     if (!finished(runs[i]) || findings.reference == i) continue;
     const auto own = runs[i].history.column(column);
     if (!own) continue;
-    const auto found = deviation(runs[i].history, *own, due, *due_column);
+    const auto found =
+        deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
     if (!found || !std::isfinite(found->rms)) continue;
     findings.runs[i].rms = found->rms;
     findings.runs[i].largest = found->largest;

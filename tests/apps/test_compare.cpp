@@ -61,6 +61,33 @@ TEST_CASE("each run keeps its own step where the time settings vary", "[apps][co
   CHECK(json["runs"][1]["steps"] == 2 * json["runs"][0]["steps"].get<int>());
 }
 
+TEST_CASE("what runs cost at their own steps is told of steps that they would make", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto compared = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"compare", "small.json", "--out", "out", "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Call call = call_talus(scratch.folder(), words);
+    INFO(call.err);
+    REQUIRE(call.code == 0);
+    return std::pair(json_of(scratch / "out/compare.json"), call.out + call.err);
+  };
+  const auto [steps, words] = compared({"--vary", "/time/dt=1e-4,5e-5"});
+  for (const auto& run : steps["runs"]) CHECK(run["own_steps"] == run["steps"]);
+  CHECK(steps["runs"][1]["own_dt [s]"] == 5e-5);
+
+  const auto [alike, nothing] = compared({"--vary", "/contact/model=overlap_area,vertex_edge"});
+  for (const auto& run : alike["runs"]) CHECK(run["own_steps"].get<double>() <= run["steps"].get<double>());
+  CHECK_THAT(nothing, !Contains("bound its own more"));
+
+  // From half of the time on one law alone bounds the step by stiffer springs.
+  const auto [staged, told] = compared(
+      {"--vary", "/contact/model=overlap_area,vertex_edge", "--set",
+       R"(/stages=[{"name": "stiff", "from": 0.1, "set": {"/interfaces/0/normal_stiffness": 1e12}}])"});
+  CHECK(staged["runs"][0]["cost_at_own_dt"].is_null());
+  CHECK_THAT(told, Contains("bound its own more from some time on"));
+}
+
 TEST_CASE("a comparison keeps the reference it was made with, and overwrites no other", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

@@ -22,7 +22,7 @@ TEST_CASE("the deviation of two curves is their largest, root mean square and la
   const Series baseline = straight({0, 1, 2, 3}, 0, 1);
   Series run = baseline;
   run.values[0] = {0, 1.5, -1, 3.25};
-  const auto found = deviation(run, 0, baseline, 0);
+  const auto found = deviation(run, 0, baseline, 0, Between::unknown);
   REQUIRE(found);
   CHECK(found->largest == -3);
   CHECK(found->largest_time == 2);
@@ -35,22 +35,38 @@ TEST_CASE("the deviation of two curves is their largest, root mean square and la
 TEST_CASE("a reference is interpolated, and used only as far as it reaches", "[compare][deviation]") {
   const Series reference = straight({0.5, 2.5}, 1, 2);
   const Series run = straight({0, 0.5, 1, 2, 2.5, 3}, 1.125, 2);
-  const auto found = deviation(run, 0, reference, 0);
+  const auto found = deviation(run, 0, reference, 0, Between::line);
   REQUIRE(found);
   CHECK(found->times == 4);
   CHECK(found->largest == Approx(0.125));
   CHECK(found->rms == Approx(0.125));
   CHECK(found->final_time == 2.5);
-  CHECK_FALSE(deviation(straight({7, 8}, 0, 0), 0, reference, 0));
+  CHECK_FALSE(deviation(straight({7, 8}, 0, 0), 0, reference, 0, Between::line));
   CHECK(deviation_at(run, 0, reference, 0, 1.75).value() == Approx(0.125));
   CHECK_FALSE(deviation_at(run, 0, reference, 0, 2.75));
+}
+
+TEST_CASE("runs are compared at the times that both have written down", "[compare][deviation]") {
+  Series coarse{{0, 1, 2}, {"block.speed [m/s]"}, {{0, 1, 4}}}, fine{{}, coarse.names, {{}}};
+  for (int i = 0; i <= 20; ++i) {
+    fine.time.push_back(0.1 * i);
+    fine.values[0].push_back(0.01 * i * i);
+  }
+  // A line between the rows of the coarse one is off by 0.25.
+  for (const auto* run : {&fine, &coarse}) {
+    const auto found = deviation(*run, 0, run == &fine ? coarse : fine, 0, Between::unknown);
+    REQUIRE(found);
+    CHECK(found->times == 3);
+    CHECK(std::abs(found->largest) < 1e-12);
+  }
+  CHECK(std::abs(deviation(fine, 0, coarse, 0, Between::line)->largest) == Approx(0.25));
 }
 
 TEST_CASE("a value that is no number is the largest deviation", "[compare][deviation]") {
   const Series baseline = straight({0, 1, 2}, 0, 0);
   Series run = baseline;
   run.values[0] = {5, std::numeric_limits<double>::quiet_NaN(), 9};
-  const auto found = deviation(run, 0, baseline, 0);
+  const auto found = deviation(run, 0, baseline, 0, Between::unknown);
   REQUIRE(found);
   CHECK(std::isnan(found->largest));
   CHECK(found->largest_time == 1);

@@ -27,6 +27,7 @@ ComparedRun run_of(const std::string& value, std::vector<double> speeds, double 
   ComparedRun run;
   run.value = value;
   run.own_dt = own_dt;
+  run.own_steps = 2 / own_dt;
   run.result.history = {{0, 1, 2}, {"block.speed [m/s]"}, {speeds}};
   run.result.history.time.resize(speeds.size());
   run.result.stepping.cpu = cpu;
@@ -105,6 +106,9 @@ TEST_CASE("of runs that were cut short no tolerance is held, and no cost at thei
     comparison.runs[1].result.end = RunEnd::interrupted;
     comparison.runs[1].result.summary.steps = 0;
   }
+  for (ComparedRun& run : comparison.runs) {
+    if (run.result.end != RunEnd::finished) run.own_steps.reset();
+  }
   const bool stepped = comparison.runs[1].result.summary.steps > 0;
   evaluate(order, comparison);
   CHECK_FALSE(comparison.tolerances_held());
@@ -138,4 +142,25 @@ TEST_CASE("an order that compares nothing is refused", "[compare][report]") {
   order = example_order();
   for (Scene& scene : order.scenes) scene.monitors.clear();
   CHECK_THROWS_AS(check_order(order), InputError);
+}
+
+TEST_CASE("a tolerance is held by curves that go to the end alone", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  order.scenes[0].time.end = 2;
+  Comparison comparison = example_comparison();
+  const auto verdict = [&] {
+    comparison.tolerances.clear();
+    comparison.deviations.clear();
+    evaluate(order, comparison);
+    return comparison.tolerances.back().checks.back().verdict;
+  };
+  order.scenes[0].tolerances = {{"block", "speed", true, {}, {}, 0.5}};
+  order.reference = ReferenceFile{"curve.csv", "", {{0, 2}, {"block.speed [m/s]"}, {{0, 2}}}};
+  CHECK(verdict() == ToleranceVerdict::held);
+  order.reference->series.time = {0, 1};
+  CHECK(verdict() == ToleranceVerdict::cut_short);
+  order.scenes[0].tolerances[0].against_reference = false;
+  CHECK(verdict() == ToleranceVerdict::held);
+  comparison.runs[0].result.history.time = {0, 0.5, 1};
+  CHECK(verdict() == ToleranceVerdict::cut_short);
 }
