@@ -268,9 +268,11 @@ void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
       run.own_steps = made;
       continue;
     }
-    const double due = steps_at(order.scenes[i], *comparison.common_dt);
+    const Scene& scene = order.scenes[i];
+    const double due =
+        steps_at(scene, std::min(scene.time.dt.value_or(*comparison.common_dt), *comparison.common_dt));
     if (std::abs(made - due) <= 0.01 * due) {
-      run.own_steps = steps_at(order.scenes[i], run.own_dt);
+      run.own_steps = steps_at(scene, run.own_dt);
       continue;
     }
     comparison.warnings.push_back(

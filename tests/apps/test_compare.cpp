@@ -80,6 +80,11 @@ TEST_CASE("what runs cost at their own steps is told of steps that they would ma
   for (const auto& run : alike["runs"]) CHECK(run["own_steps"].get<double>() <= run["steps"].get<double>());
   CHECK_THAT(nothing, !Contains("bound its own more"));
 
+  const auto [fixed, quiet] =
+      compared({"--vary", "/contact/model=overlap_area,vertex_edge", "--set", "/time/dt=5e-5"});
+  CHECK_FALSE(fixed["runs"][1]["cost_at_own_dt"].is_null());
+  CHECK_THAT(quiet, !Contains("bound its own more"));
+
   // From half of the time on one law alone bounds the step by stiffer springs.
   const auto [staged, told] = compared(
       {"--vary", "/contact/model=overlap_area,vertex_edge", "--set",
