@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -74,7 +76,15 @@ int report(const std::exception& problem, int code, const Log& log) {
   return code;
 }
 
+/// Files that are opened get the lowest numbers, and must not get those of the standard streams.
+void open_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
+  }
+}
+
 int guarded(const Words& words) {
+  open_standard_streams();
   const Log log = log_of_words(words);
   try {
     const int code = dispatch(words);

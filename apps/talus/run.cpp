@@ -24,7 +24,7 @@ Checkpoint as_started(const std::filesystem::path& file, const RunOrder& order, 
   run.files = scene.files;
   run.overrides = order.overrides;
   run.allow_plugins = given.count("allow-plugins") != 0;
-  run.plugin_folders = plugin_folders_of(usage, given);
+  run.plugin_folders = chosen_folders(plugin_folders_of(usage, given));
   run.libraries = hashed_libraries(scene);
   run.simd = scene.simd;
   run.neighbour_skin = order.settings.neighbour_skin;
@@ -72,8 +72,16 @@ int run_command(const Words& words) {
   Registry registry = offered_registry(usage, *given);
   Scene read = read_scene_of(file, registry, order.overrides, given->count("allow-plugins") != 0, log);
   for (const std::string& warning : read.warnings) log.warning(warning);
-  order.scene_hash = hash_of_file(file);
-  order.checkpoints = CheckpointOrder{as_started(file, order, read, usage, *given), {}, {}};
+  // A pipe cannot be read twice, so that nobody could go on from a state.
+  if (std::filesystem::is_regular_file(file)) {
+    order.scene_hash = hash_of_file(file);
+    order.checkpoints = CheckpointOrder{as_started(file, order, read, usage, *given), {}, {}};
+  } else if (given->count("checkpoint-every") + given->count("wall-time") > 0) {
+    throw UsageError(usage.command,
+                     fmt::format("{} is a pipe, and a run from a pipe leaves no checkpoint: write "
+                                 "the scene to a file",
+                                 file.string()));
+  }
   read_running_options(usage, *given, order);
   Simulation simulation(std::move(read), order.settings);
   prepare_output_folder(order.folder, given->count("overwrite") != 0);

@@ -125,6 +125,7 @@ void add_running_options(Usage& usage) {
 void read_running_options(const Usage& usage, const po::variables_map& given, RunOrder& order) {
   order.settings.profile = given.count("profile") != 0;
   order.settings.contacts_as_recorded = true;
+  if (!order.checkpoints) return;
   order.checkpoints->every = seconds_of(usage, given, "checkpoint-every");
   order.checkpoints->wall_time = seconds_of(usage, given, "wall-time");
 }

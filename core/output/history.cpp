@@ -2,14 +2,27 @@
 
 #include "output/input_error.hpp"
 #include "output/quantity.hpp"
+#include "scene/nearest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <string>
 #include <system_error>
 
 namespace talus {
+namespace {
+
+std::string head_of(std::span<const std::string> columns) {
+  std::vector<std::string> fields{"t [s]"};
+  fields.insert(fields.end(), columns.begin(), columns.end());
+  return csv_line(fields);
+}
+
+}  // namespace
+
 std::vector<std::string> monitor_columns(const Scene& scene) {
   std::vector<std::string> columns;
   for (const Monitor& monitor : scene.monitors) {
@@ -51,20 +64,32 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::span<const 
     : file_(file) {
   errno = 0;
   stream_.open(file, std::ios::binary | std::ios::trunc);
-  std::vector<std::string> fields{"t [s]"};
-  fields.insert(fields.end(), columns.begin(), columns.end());
-  write(csv_line(fields));
+  write(head_of(columns));
 }
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::uint64_t size)
     : file_(file), size_(size) {
-  if (!std::filesystem::exists(file) || std::filesystem::file_size(file) < size) {
-    throw InputError(
-        fmt::format("'{}' is not what the run left: it should have {} bytes at least", file.string(), size));
-  }
   std::filesystem::resize_file(file, size);
   errno = 0;
   stream_.open(file, std::ios::binary | std::ios::app);
+}
+
+void HistoryWriter::refuse_other(const std::filesystem::path& file, std::span<const std::string> columns) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head;
+  std::getline(stream, head);
+  if (stream && head == head_of(columns)) return;
+  throw InputError(
+      fmt::format("'{}' is not what the run left: it should begin with the line '{}'; nothing was written",
+                  file.string(), clipped(head_of(columns))));
+}
+
+void HistoryWriter::refuse_shorter(const std::filesystem::path& file, std::uint64_t size) {
+  std::error_code none;
+  const std::uintmax_t found = std::filesystem::file_size(file, none);
+  if (!none && found >= size) return;
+  throw InputError(
+      fmt::format("'{}' is not what the run left: it should have {} bytes at least", file.string(), size));
 }
 
 void HistoryWriter::add(double time, std::span<const double> values) {

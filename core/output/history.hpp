@@ -27,8 +27,12 @@ std::vector<double> energies(const EnergyLedger& ledger);
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& file, std::span<const std::string> columns);
-  /// Goes on after the first `size` bytes of a file that a writer left. Throws InputError if it is shorter.
+  /// Goes on after the first `size` bytes of a file that a writer left, and cuts off what is behind.
   HistoryWriter(const std::filesystem::path& file, std::uint64_t size);
+
+  /// Throw InputError unless a writer left the file with these columns, or with so many bytes at least.
+  static void refuse_other(const std::filesystem::path& file, std::span<const std::string> columns);
+  static void refuse_shorter(const std::filesystem::path& file, std::uint64_t size);
 
   void add(double time, std::span<const double> values);
 

@@ -79,7 +79,7 @@ void step_to_the_end(const Course& course) {
                                      const std::system_error& failure) {
   const std::string reason = failure.what();
   try {
-    keeper.write_remembered(reason);
+    keeper.write_latest(reason);
   } catch (const std::system_error&) {
     throw failure;
   }
@@ -101,6 +101,7 @@ std::string time_in_words(const RunResult& result, double time) {
 RunResult record_run(Simulation& simulation, const RunOrder& order) {
   RunResult result;
   const FolderLock mine(order.folder);
+  if (order.from != nullptr) refuse_other_files(simulation, order.folder);
   write_whole_file(order.folder / "resolved.json", simulation.scene().resolved + "\n");
   Recorder recorder(simulation, order.folder);
   RunKeeper keeper(order, simulation, recorder, result);

@@ -9,6 +9,11 @@ constexpr const char *history_name = "history.csv", *energy_name = "energy.csv";
 
 }  // namespace
 
+void refuse_other_files(const Simulation& simulation, const std::filesystem::path& folder) {
+  HistoryWriter::refuse_other(folder / history_name, monitor_columns(simulation.scene()));
+  HistoryWriter::refuse_other(folder / energy_name, energy_columns());
+}
+
 Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& folder)
     : simulation_(simulation), folder_(folder), columns_(monitor_columns(simulation.scene())) {
   if (simulation.scene().output.frames) frames_.emplace(folder, point_numbers(simulation));
@@ -28,6 +33,8 @@ void Recorder::exchange(Archive& archive) {
   archive(last_frame_);
   if (frames_) frames_->exchange(archive);
   if (!archive.reading()) return;
+  HistoryWriter::refuse_shorter(folder_ / history_name, size);
+  HistoryWriter::refuse_shorter(folder_ / energy_name, energy_size);
   history_.emplace(folder_ / history_name, size);
   energy_.emplace(folder_ / energy_name, energy_size);
   series_ = read_series(folder_ / history_name);

@@ -12,6 +12,9 @@
 
 namespace talus {
 
+/// Throws InputError where the files of a folder are not those of this run, which would be spoiled by it.
+void refuse_other_files(const Simulation& simulation, const std::filesystem::path& folder);
+
 /// Writes rows and frames of a run as they fall due, each time once: history.csv has the monitors, energy.csv
 /// the ledger.
 class Recorder {

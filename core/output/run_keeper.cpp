@@ -1,5 +1,7 @@
 #include "output/run_keeper.hpp"
 
+#include <utility>
+
 namespace talus {
 namespace {
 
@@ -20,6 +22,7 @@ void RunKeeper::restore(const Checkpoint& checkpoint) {
   Archive archive(checkpoint.state);
   exchange(archive);
   if (!archive.at_end()) Archive::refuse();
+  remembered_ = checkpoint;
 }
 
 /// The simulation comes first, for those who want nothing else.
@@ -49,10 +52,11 @@ void RunKeeper::note(Checkpoint& checkpoint) const {
 
 void RunKeeper::write(const std::string& reason) {
   if (!order_.checkpoints) return;
-  remembered_ = order_.checkpoints->run;
-  note(remembered_);
-  remembered_.state = state();
-  write_remembered(reason);
+  Checkpoint now = order_.checkpoints->run;
+  note(now);
+  now.state = state();
+  put(now, reason);
+  if (remembered_.state.empty()) remembered_ = std::move(now);  // until one is found good
   last_written_ = wall();
 }
 
@@ -66,11 +70,18 @@ void RunKeeper::remember() {
 }
 
 void RunKeeper::write_remembered(const std::string& reason) {
-  if (remembered_.state.empty()) return;
-  remembered_.reason = reason;
+  if (!remembered_.state.empty()) put(remembered_, reason);
+}
+
+void RunKeeper::write_latest(const std::string& reason) {
+  if (result_.checkpoint.empty() || result_.checkpoint_time < remembered_.time) write_remembered(reason);
+}
+
+void RunKeeper::put(Checkpoint& checkpoint, const std::string& reason) {
+  checkpoint.reason = reason;
   result_.checkpoint = order_.folder / checkpoint_name;
-  result_.checkpoint_time = remembered_.time;
-  write_checkpoint(result_.checkpoint, remembered_);
+  result_.checkpoint_time = checkpoint.time;
+  write_checkpoint(result_.checkpoint, checkpoint);
 }
 
 void RunKeeper::drop() {

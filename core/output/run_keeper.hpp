@@ -16,13 +16,15 @@ class RunKeeper {
   /// State and files as they were when the checkpoint was written.
   void restore(const Checkpoint& checkpoint);
 
-  bool due() const;               ///< for the next regular checkpoint
-  bool out_of_wall_time() const;  ///< for the whole run
-  void write(const std::string& reason);
+  bool due() const;                       ///< for the next regular checkpoint
+  bool out_of_wall_time() const;          ///< for the whole run
+  void write(const std::string& reason);  ///< of the present state, which nobody has judged yet
 
-  /// Holds the present state in memory, at a fiftieth of the time of the run at most.
+  /// Holds the present state in memory, which was found good, at a fiftieth of the time of the run at most.
   void remember();
   void write_remembered(const std::string& reason);
+  /// The same, unless a later state is in the folder already.
+  void write_latest(const std::string& reason);
 
   /// Of a run that is at its end nothing is left to go on with.
   void drop();
@@ -33,6 +35,7 @@ class RunKeeper {
   std::string state();
   void exchange(Archive& archive);
   void note(Checkpoint& checkpoint) const;
+  void put(Checkpoint& checkpoint, const std::string& reason);
 
   const RunOrder& order_;
   Simulation& simulation_;
@@ -41,7 +44,7 @@ class RunKeeper {
   Clock::time_point begin_ = Clock::now();
   double last_written_ = 0;  ///< s on the clock
   double remembering_ = 0;   ///< s on the clock that it has taken
-  Checkpoint remembered_;
+  Checkpoint remembered_;    ///< the last good state
 };
 
 }  // namespace talus

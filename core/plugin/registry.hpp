@@ -86,8 +86,9 @@ void load_offered(Registry& registry);
 /// The prefix of the installation this program belongs to: the folder above that of the program itself.
 std::filesystem::path installation_prefix();
 
-/// --plugin-path entries, then TALUS_PLUGIN_PATH (colon-separated), then lib/talus/plugins of the
-/// installation this program belongs to.
+/// --plugin-path entries, then TALUS_PLUGIN_PATH (colon-separated).
+std::vector<std::filesystem::path> chosen_folders(std::span<const std::filesystem::path> from_command_line);
+/// These, then lib/talus/plugins of the installation this program belongs to.
 std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line);
 
 /// What a plugin says of itself, fit for a terminal: in one line, without control characters; where it says

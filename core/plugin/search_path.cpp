@@ -11,7 +11,7 @@ std::filesystem::path installation_prefix() {
   return boost::dll::program_location().parent_path().parent_path();
 }
 
-std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line) {
+std::vector<std::filesystem::path> chosen_folders(std::span<const std::filesystem::path> from_command_line) {
   std::vector<std::filesystem::path> folders;
   for (const auto& folder : from_command_line) folders.push_back(std::filesystem::absolute(folder));
   if (const char* variable = std::getenv("TALUS_PLUGIN_PATH")) {
@@ -23,6 +23,11 @@ std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::
       rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
     }
   }
+  return folders;
+}
+
+std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line) {
+  std::vector<std::filesystem::path> folders = chosen_folders(from_command_line);
   folders.push_back(installation_prefix() / "lib" / "talus" / "plugins");
   return folders;
 }

@@ -6,8 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include <signal.h>
+#include <sys/stat.h>
 
+#include <fstream>
+#include <map>
 #include <random>
+#include <thread>
 
 using namespace talus;
 using Catch::Matchers::Contains;
@@ -117,6 +121,74 @@ TEST_CASE("a run that is stopped keeps its last good state", "[apps][resume]") {
   const Call again = call_talus(scratch.folder(), {"resume", "out/small"});
   CHECK(again.code == 4);
   CHECK(json_of(scratch / "out/small/run.json")["t [s]"] == stopped);
+}
+
+TEST_CASE("a state that nobody has judged yet does not replace the last good one", "[apps][resume]") {
+  const Scratch scratch;
+  const std::vector<std::string> too_long{"run",     TALUS_SCENES "/column.json",
+                                          "--quiet", "--out",
+                                          "out",     "--overwrite",
+                                          "--set",   "/time/dt=1.6e-4"};
+  const auto kept = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    const Call call = call_talus(scratch.folder(), words);
+    CHECK(call.code == 4);
+    const std::string from = "holds the state at t = ";
+    const std::size_t at = call.err.find(from);
+    REQUIRE(at != std::string::npos);
+    return call.err.substr(at, call.err.find(" s", at + from.size()) - at);
+  };
+  CHECK(kept(too_long, {"--checkpoint-every", "0"}) == kept(too_long, {}));
+}
+
+TEST_CASE("resume spoils no results of another run", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0"})).code == 130);
+  REQUIRE(
+      call_talus(scratch.folder(), {"run", "small.json", "--quiet", "--out", "other", "--set",
+                                    R"(/monitors=[{"name": "m", "body": "block", "quantities": ["ux"]}])"})
+          .code == 0);
+  const auto held = [&](const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / folder)) {
+      if (entry.is_regular_file()) files[entry.path().string()] = read_whole_file(entry.path());
+    }
+    return files;
+  };
+  const auto refused = [&](const std::string& folder) {
+    std::filesystem::copy_file(scratch / "broken/checkpoint.talus", scratch / folder / "checkpoint.talus");
+    const auto before = held(folder);
+    const Call call = call_talus(scratch.folder(), {"resume", folder + "/checkpoint.talus"});
+    CHECK(call.code == 2);
+    CHECK(held(folder) == before);
+    return call.err;
+  };
+  CHECK_THAT(refused("other"), Contains("history.csv' is not what the run left"));
+  std::filesystem::create_directory(scratch / "empty");
+  CHECK_THAT(refused("empty"), Contains("history.csv' is not what the run left"));
+  std::filesystem::copy(scratch / "broken", scratch / "half");
+  std::filesystem::remove(scratch / "half/checkpoint.talus");
+  std::filesystem::remove(scratch / "half/energy.csv");
+  CHECK_THAT(refused("half"), Contains("energy.csv' is not what the run left"));
+}
+
+TEST_CASE("a scene from a pipe runs, and leaves no state that nobody can go on from", "[apps][run]") {
+  const Scratch scratch;
+  const std::filesystem::path pipe = scratch / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::thread writer([&] { std::ofstream(pipe) << small_scene(); });
+    std::vector<std::string> words{"run", "pipe", "--quiet", "--out", "out", "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Call call = call_talus(scratch.folder(), words);
+    writer.join();
+    return call;
+  };
+  CHECK(run({}).code == 0);
+  const Call call = run({"--wall-time", "0"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("leaves no checkpoint: write the scene to a file"));
 }
 
 TEST_CASE("doctor says which step was the first bad one and what to change", "[apps][doctor]") {
