@@ -80,7 +80,7 @@ int advise_command(const Words& words) {
   fmt::print("for {:.3g} % take", 100 * error);
   for (const Override& change : plan.overrides(plan.points[*best]))
     fmt::print(" --set {}={}", change.pointer, change.value);
-  fmt::print("\nerror {:.3g} %", 100 * *study.findings.runs[*best].error);
+  fmt::print("\nerror {:.3g} %", 100 * study.findings.runs[*best].error.value_or(0));
   if (study.findings.error_of_reference)
     fmt::print(" and about {:.2g} % of what it is measured against",
                100 * *study.findings.error_of_reference);

@@ -76,10 +76,11 @@ int report(const std::exception& problem, int code, const Log& log) {
   return code;
 }
 
-/// Files that are opened get the lowest numbers, and must not get those of the standard streams.
+/// Files that are opened get the lowest numbers, and must not get those of the standard streams. What is
+/// written to one that was closed fails as before.
 void open_standard_streams() {
   for (int stream = 0; stream <= 2; ++stream) {
-    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) == -1) return;
   }
 }
 

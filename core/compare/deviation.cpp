@@ -21,8 +21,9 @@ std::optional<Deviation> deviation(const Series& series, std::size_t column, con
                                    std::size_t other_column, Between between) {
   Deviation found;
   double squares = 0;
-  const bool other_is_coarser = between == Between::unknown &&
-                                count_within(other.time, series.time) < count_within(series.time, other.time);
+  // A run that was stopped has a row of that moment besides.
+  const bool other_is_coarser = between == Between::unknown && count_within(other.time, series.time) + 1 <
+                                                                   count_within(series.time, other.time);
   for (const double time : other_is_coarser ? other.time : series.time) {
     const std::optional<double> value = interpolate(series.time, series.values[column], time);
     const std::optional<double> expected = interpolate(other.time, other.values[other_column], time);

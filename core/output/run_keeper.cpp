@@ -7,6 +7,11 @@ namespace {
 
 constexpr double share_of_remembering = 0.02;
 
+/// All of settling comes before t = 0.
+std::pair<bool, double> place_of(const Checkpoint& checkpoint) {
+  return {!checkpoint.settling, checkpoint.time};
+}
+
 }  // namespace
 
 RunKeeper::RunKeeper(const RunOrder& order, Simulation& simulation, Recorder& recorder, RunResult& result)
@@ -22,7 +27,10 @@ void RunKeeper::restore(const Checkpoint& checkpoint) {
   Archive archive(checkpoint.state);
   exchange(archive);
   if (!archive.at_end()) Archive::refuse();
-  remembered_ = checkpoint;
+  if (!order_.checkpoints) return;
+  remembered_ = order_.checkpoints->run;
+  note(remembered_);
+  remembered_.state = checkpoint.state;
 }
 
 /// The simulation comes first, for those who want nothing else.
@@ -74,13 +82,14 @@ void RunKeeper::write_remembered(const std::string& reason) {
 }
 
 void RunKeeper::write_latest(const std::string& reason) {
-  if (result_.checkpoint.empty() || result_.checkpoint_time < remembered_.time) write_remembered(reason);
+  if (result_.checkpoint.empty() || written_ < place_of(remembered_)) write_remembered(reason);
 }
 
 void RunKeeper::put(Checkpoint& checkpoint, const std::string& reason) {
   checkpoint.reason = reason;
   result_.checkpoint = order_.folder / checkpoint_name;
   result_.checkpoint_time = checkpoint.time;
+  written_ = place_of(checkpoint);
   write_checkpoint(result_.checkpoint, checkpoint);
 }
 

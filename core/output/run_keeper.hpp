@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 namespace talus {
 
@@ -42,9 +43,10 @@ class RunKeeper {
   Recorder& recorder_;
   RunResult& result_;
   Clock::time_point begin_ = Clock::now();
-  double last_written_ = 0;  ///< s on the clock
-  double remembering_ = 0;   ///< s on the clock that it has taken
-  Checkpoint remembered_;    ///< the last good state
+  double last_written_ = 0;                    ///< s on the clock
+  double remembering_ = 0;                     ///< s on the clock that it has taken
+  Checkpoint remembered_;                      ///< the last good state
+  std::pair<bool, double> written_{false, 0};  ///< the state in the folder: whether of the run itself, s
 };
 
 }  // namespace talus

@@ -184,8 +184,9 @@ std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const 
                                            double error) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!findings.runs[i].error) continue;
-    if (*findings.runs[i].error + findings.error_of_reference.value_or(0) > error) continue;
+    const bool is_reference = findings.reference == i && findings.error_of_reference;
+    if (!findings.runs[i].error && !is_reference) continue;
+    if (findings.runs[i].error.value_or(0) + findings.error_of_reference.value_or(0) > error) continue;
     if (!best || runs[i].cpu < runs[*best].cpu) best = i;
   }
   return best;

@@ -141,6 +141,25 @@ TEST_CASE("a state that nobody has judged yet does not replace the last good one
   CHECK(kept(too_long, {"--checkpoint-every", "0"}) == kept(too_long, {}));
 }
 
+TEST_CASE("the state kept when a resumed run is stopped knows all its resumes", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const std::vector<std::string> unstable{"run",   TALUS_SCENES "/column.json", "--quiet",     "--out", "out",
+                                          "--set", "/time/dt=1.6e-4",           "--wall-time", "0"};
+  REQUIRE(call_talus(scratch.folder(), unstable).code == 130);
+  REQUIRE(call_talus(scratch.folder(), {"resume", "out", "--wall-time", "0"}).code == 130);
+  REQUIRE(call_talus(scratch.folder(), {"resume", "out"}).code == 4);
+  const std::string info = call_talus(scratch.folder(), {"info", "out"}).out;
+  const auto continued = json_of(scratch / "out/run.json")["continued [s]"];
+  REQUIRE(continued.size() == 2);
+  std::size_t told = 0;
+  for (std::size_t at = info.find("continued at"); at != std::string::npos;
+       at = info.find("continued at", at + 1))
+    ++told;
+  INFO(info);
+  CHECK(told == 2);
+}
+
 TEST_CASE("resume spoils no results of another run", "[apps][resume]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

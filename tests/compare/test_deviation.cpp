@@ -62,6 +62,15 @@ TEST_CASE("runs are compared at the times that both have written down", "[compar
   CHECK(std::abs(deviation(fine, 0, coarse, 0, Between::line)->largest) == Approx(0.25));
 }
 
+TEST_CASE("the moment at which a run was stopped is compared, too", "[compare][deviation]") {
+  const Series baseline{{0, 1, 2, 3}, {"block.speed [m/s]"}, {{0, 0, 0, 0}}};
+  const Series stopped{{0, 1, 1.5}, {"block.speed [m/s]"}, {{0, 0, 7}}};
+  const auto found = deviation(stopped, 0, baseline, 0, Between::unknown);
+  REQUIRE(found);
+  CHECK(found->largest == 7);
+  CHECK(found->final_time == 1.5);
+}
+
 TEST_CASE("a value that is no number is the largest deviation", "[compare][deviation]") {
   const Series baseline = straight({0, 1, 2}, 0, 0);
   Series run = baseline;

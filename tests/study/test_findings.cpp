@@ -34,6 +34,7 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK(cheapest_within(findings, runs, 0.03) == 1u);
   CHECK(cheapest_within(findings, runs, 0.019) == 2u);  // 0.0187 and what the reference misses
   CHECK(cheapest_within(findings, runs, 0.5) == 0u);
+  CHECK(cheapest_within(findings, runs, 0.002) == 4u);  // the reference, which misses 0.00125
   CHECK_FALSE(cheapest_within(findings, runs, 1e-6));
 
   const std::string table = study_table(sample_steps(), runs, findings);
