@@ -215,7 +215,9 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   }
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
     const double end = order.scenes[0].time.end * (1 - 1e-9);
-    const auto ends_early = [&](const Series& series) { return !(series.time.back() >= end); };
+    const auto ends_early = [&](const Series& series) {
+      return series.time.empty() || !(series.time.back() >= end);
+    };
     const auto unfinished = [&](const ComparedRun& each) {
       return each.result.end != RunEnd::finished || ends_early(each.result.history);
     };
@@ -275,11 +277,10 @@ void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
       run.own_steps = steps_at(scene, run.own_dt);
       continue;
     }
-    comparison.warnings.push_back(
-        fmt::format("'{}' took {} steps, where the largest step for all makes {:.0f}: speed, contacts or a "
-                    "stage bound its "
-                    "own more from some time on, so what it costs at its own step is not told",
-                    run.value, run.result.summary.steps, due));
+    comparison.warnings.push_back(fmt::format(
+        "'{}' took {} steps, where the largest step for all makes {:.0f}: speed, contacts or a "
+        "stage bound its own more from some time on, so what it costs at its own step is not told",
+        run.value, run.result.summary.steps, due));
   }
 }
 
