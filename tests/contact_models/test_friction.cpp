@@ -158,3 +158,22 @@ TEST_CASE("Normal dashpots: the stated share of critical on the whole contact", 
     CHECK(e.pairs[0].damping_power == Approx((e.on(1).y - still) * 0.01 * 1e-6).epsilon(5e-3));
   }
 }
+
+TEST_CASE("The friction of a base is that of the base, not that of the sides beside it", "[laws]") {
+  for (const std::string law : {"overlap_area", "cohesive_overlap"}) {
+    INFO(law);
+    LawBench bench(law, undamped_interface());
+    bench.set_interfaces({with(undamped_interface(), {{"friction_angle", 25}}),
+                          with(undamped_interface(), {{"friction_angle", 0}})},
+                         [](std::uint32_t p, std::uint32_t q) { return p == 1 || q == 1 ? 1U : 0U; });
+    const double depth = 0.02;
+    bench.bodies = {box(-2, -1, 2, 0),
+                    held({{-0.5, -depth}, {0.5, -depth}, {0.5, 1}, {-0.5, 1}}, {0, 1, 1, 1})};
+    bench.master_share = 1;
+    bench.step();
+    bench.bodies[1].motion.velocity = {10, 0};
+    const Evaluation sliding = bench.step(1e-2);
+    REQUIRE(sliding.on(1).y == Approx(1e9 * depth));
+    CHECK(-sliding.on(1).x == Approx(mu * sliding.on(1).y).epsilon(1e-12));
+  }
+}

@@ -39,8 +39,10 @@ struct Segment {
   Point at[2];
   double depth[2];
   double length;
+  double facing;   ///< cosine to the side of the master, 0 where it does not face that
   double load[2];  ///< N/m, at the two ends, normal to the slave
   double share() const { return length * (depth[0] + depth[1]) / 2; }
+  double facing_share() const { return facing * share(); }
 };
 
 /// Resultant of some loads, to see what is left over.

@@ -213,12 +213,13 @@ class DistributedContact {
       segment.depth[0] = std::max(0.0, master.depth(side, cell[i].at));
       segment.depth[1] = std::max(0.0, master.depth(side, end));
       segment.length = length(end - cell[i].at);
+      segment.facing = std::max(0.0, -dot(slave.normal(segment.side), master.normal(side)));
       segments_.push_back(segment);
     }
   }
 
-  /// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load, so
-  /// that nothing jumps when a slave corner passes a division line.
+  /// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load along
+  /// the normal of the cell, so that nothing jumps when a slave corner passes a division line.
   InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, const Overlap& overlap,
                                    const Piece& master, const Piece& slave, std::uint32_t side,
                                    std::uint32_t first_segment) const {
@@ -227,14 +228,13 @@ class DistributedContact {
           interfaces.row[master.surface(side) * interfaces.surface_count + slave.surface(slave_side)];
       return law.interface(interfaces.value + row * interfaces.parameter_count);
     };
-    double total = 0;
-    for (std::size_t s = first_segment; s < segments_.size(); ++s) total += segments_[s].share();
-    if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
     if (segments_.size() == first_segment + 1) return parameters_with(segments_[first_segment].side);
+    double total = 0;
+    for (std::size_t s = first_segment; s < segments_.size(); ++s) total += segments_[s].facing_share();
+    if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
     InterfaceParameters mean;
-    for (std::size_t s = first_segment; s < segments_.size(); ++s) {
-      mean.add(segments_[s].share() / total, parameters_with(segments_[s].side));
-    }
+    for (std::size_t s = first_segment; s < segments_.size(); ++s)
+      mean.add(segments_[s].facing_share() / total, parameters_with(segments_[s].side));
     return mean;
   }
 
@@ -346,8 +346,6 @@ class DistributedContact {
       double on_end = cell.load * master.lever(cell.side, cell.foot);
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
         const Segment& segment = segments_[s];
-        // A slave side that leans pushes along the normal of the cell with a part of its load only.
-        const double facing = std::max(0.0, -dot(slave.normal(segment.side), cell.normal));
         double rate[2];
         for (int end = 0; end < 2; ++end) {
           const Point at = segment.at[end];
@@ -355,9 +353,11 @@ class DistributedContact {
                                  master.velocity_at(cell.side, master.lever(cell.side, at));
           rate[end] = -dot(velocity, cell.normal);
         }
+        // A slave side that leans pushes along the normal of the cell with a part of its load only.
         for (int end = 0; end < 2; ++end) {
-          const double viscous = viscosity * facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
-          const double force = std::max(viscous, -facing * segment.load[end]);
+          const double viscous =
+              viscosity * segment.facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
+          const double force = std::max(viscous, -segment.facing * segment.load[end]);
           const Point at = segment.at[end];
           sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * cell.normal);
           sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
