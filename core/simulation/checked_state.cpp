@@ -28,12 +28,36 @@ std::string Simulation::State::place(std::uint32_t body) const {
                      scene.origin.y + centre.y + u.y);
 }
 
+/// " of" the first body with a velocity that is no number, and where it is, or was drawn if that is none
+/// either; empty: there is none.
+std::string Simulation::State::without_number() const {
+  const auto number = [](Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); };
+  const auto rows = [&](const Matrix2& m) { return number({m.xx, m.xy}) && number({m.yx, m.yy}); };
+  const auto all = [&](const std::vector<Vec2>& of, std::uint32_t body) {
+    const CoverRanges& ranges = model.ranges(model.bodies[body]);
+    return std::all_of(of.begin() + ranges.patch_begin, of.begin() + ranges.patch_end, number);
+  };
+  for (const std::uint32_t body : model.moving_bodies) {
+    const BodyMotion& at = motion.bodies[body];
+    const bool covered = model.covered(body);
+    const bool moves = covered ? all(motion.patch_velocity, body)
+                               : number(at.velocity) && rows(at.rate) && std::isfinite(at.spin);
+    if (moves) continue;
+    if (covered ? all(motion.patch_displacement, body) : number(at.u) && rows(at.h))
+      return " of " + place(body);
+    const Vec2 drawn = model.bodies[body].centre;
+    return fmt::format(" of '{}', drawn at ({:.6g}, {:.6g}) m,", scene.bodies[body].name,
+                       scene.origin.x + drawn.x, scene.origin.y + drawn.y);
+  }
+  return {};
+}
+
 void Simulation::State::check_numbers() const {
   if (std::isfinite(speeds.largest)) return;
   throw NumericalTrouble(
-      fmt::format("a velocity is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
+      fmt::format("a velocity{} is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
                   "take a smaller time step",
-                  time, plan.dt, critical.dt));
+                  without_number(), time, plan.dt, critical.dt));
 }
 
 /// As a plan begins, so at output times, and not where a checkpoint happens to be due. What is turned inside
@@ -97,9 +121,9 @@ void Simulation::State::check_materials(double kinetic) const {
                          component.file.string());
   }
   throw NumericalTrouble(
-      fmt::format("the {} energy is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} s); "
-                  "take a smaller time step{}{}",
-                  strains ? "kinetic" : "strain", time, plan.dt, critical.dt,
+      fmt::format("the {} energy{} is no longer a number at t = {:.9g} s (step {:.3g} s, critical {:.3g} "
+                  "s); take a smaller time step{}{}",
+                  strains ? "kinetic" : "strain", without_number(), time, plan.dt, critical.dt,
                   names.empty() ? "" : ", or mend the material: ", names));
 }
 

@@ -151,6 +151,7 @@ struct Simulation::State {
   void set_rigid_motion(std::size_t body, Vec2 velocity, double spin);
   void stop(const StepConditions& conditions);
   std::string place(std::uint32_t body) const;
+  std::string without_number() const;
 
   // Between steps; see Simulation::exchange().
   void exchange_clock(Archive& archive);

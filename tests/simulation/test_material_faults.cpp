@@ -71,8 +71,9 @@ TEST_CASE("A material that gives no numbers stops the run and is named", "[simul
   const std::string cover = GENERATE(R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})");
   CAPTURE(cover);
   CHECK_NOTHROW(run_with(Fault::none, cover));
-  for (const auto& [one, words] : {std::pair{Fault::stress, "the kinetic energy is no longer a number"},
-                                   {Fault::energy, "the strain energy is no longer a number"}}) {
+  for (const auto& [one, words] :
+       {std::pair{Fault::stress, "the kinetic energy of 'a' at (0.5, 0.5) m is no longer a number"},
+        {Fault::energy, "the strain energy is no longer a number"}}) {
     CHECK_THROWS_WITH(run_with(one, cover),
                       Contains(words) && Contains("or mend the material: 'faulty' of /plugins/libfaulty.so"));
   }
