@@ -4,6 +4,7 @@
 #include "compare/report.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
+#include "output/folder_lock.hpp"
 #include "output/hash.hpp"
 #include "output/input_error.hpp"
 #include "output/output_folder.hpp"
@@ -130,7 +131,8 @@ int compare_command(const Words& words) {
   }
   check_order(order);
   const bool overwrite = given->count("overwrite") != 0;
-  prepare_output_folder(order.folder, overwrite);
+  prepare_output_folder(order.folder, overwrite, {file});
+  const FolderLock mine(order.folder);
   for (const std::string& value : order.variation.values) {
     prepare_output_folder(order.folder / folder_of_value(value), overwrite);
   }

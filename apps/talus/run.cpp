@@ -83,8 +83,10 @@ int run_command(const Words& words) {
                                  file.string()));
   }
   read_running_options(usage, *given, order);
+  std::vector<std::filesystem::path> files{file};
+  for (const auto& [name, hash] : read.files) files.emplace_back(name);
   Simulation simulation(std::move(read), order.settings);
-  prepare_output_folder(order.folder, given->count("overwrite") != 0);
+  prepare_output_folder(order.folder, given->count("overwrite") != 0, files);
 
   return conduct(simulation, order, *given, log);
 }

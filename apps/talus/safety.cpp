@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
+#include "output/folder_lock.hpp"
 #include "output/output_folder.hpp"
 #include "output/series.hpp"
 #include "output/whole_file.hpp"
@@ -199,7 +200,8 @@ int safety_command(const Words& words) {
       read_scene_of(file, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
-  prepare_output_folder(folder, given->count("overwrite") != 0);
+  prepare_output_folder(folder, given->count("overwrite") != 0, {file});
+  const FolderLock mine(folder);
 
   const std::atomic<bool>* asked_to_stop = watch_for_interrupts();
   settings.interrupted = [asked_to_stop] { return asked_to_stop->load(); };

@@ -1,9 +1,11 @@
 #include "study_options.hpp"
 
 #include "interrupt.hpp"
+#include "output/folder_lock.hpp"
 #include "output/hash.hpp"
 #include "output/history.hpp"
 #include "output/input_error.hpp"
+#include "output/output_folder.hpp"
 #include "output/shell_word.hpp"
 #include "output/whole_file.hpp"
 #include "progress.hpp"
@@ -125,7 +127,8 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   const std::string column = column_of(usage, given, plain.scene);
   std::optional<Series> reference;
   if (const std::string name = text_option(given, "reference"); !name.empty()) reference = read_series(name);
-  std::filesystem::create_directories(study.folder);
+  prepare_folder_of_runs(study.folder);
+  const FolderLock mine(study.folder);
 
   order.interrupted = watch_for_interrupts();
   Progress progress({}, given.count("quiet") != 0);

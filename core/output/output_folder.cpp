@@ -39,12 +39,25 @@ std::vector<fs::path> results_in(const fs::path& folder) {
   return found;
 }
 
+void refuse_file(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError(fmt::format("'{}' is in the way: it is a file, not a folder", folder.string()));
+}
+
+/// Results of before are what they are by name: one may be the scene itself.
+void refuse_to_remove(const fs::path& result, const std::vector<fs::path>& read) {
+  for (const fs::path& file : read) {
+    std::error_code unknown;
+    if (!fs::equivalent(file, result, unknown)) continue;
+    throw InputError(fmt::format(
+        "'{}' is read to make the results that would replace it: give --out another folder", file.string()));
+  }
+}
+
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder, bool overwrite) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw InputError(fmt::format("'{}' is in the way: it is a file, not a folder", folder.string()));
-  }
+void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
+  refuse_file(folder);
   const std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && !overwrite) {
     throw InputError(fmt::format(
@@ -52,9 +65,19 @@ void prepare_output_folder(const fs::path& folder, bool overwrite) {
         "folder",
         folder.string(), results[0].filename().string()));
   }
+  for (const fs::path& file : results) refuse_to_remove(file, read);
   fs::create_directories(folder);
   const FolderLock mine(folder);
   for (const fs::path& file : results) fs::remove(file);
+}
+
+void prepare_folder_of_runs(const fs::path& folder) {
+  refuse_file(folder);
+  if (const std::vector<fs::path> results = results_in(folder); !results.empty()) {
+    throw InputError(fmt::format("'{}' holds results of a single run ('{}'): give --out another folder",
+                                 folder.string(), results[0].filename().string()));
+  }
+  fs::create_directories(folder);
 }
 
 }  // namespace talus

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace talus {
 
 /// Makes the folder that results go to. One that holds results already, or that another run writes into, is
 /// refused (InputError); with `overwrite` it is cleared of results: of files that talus writes, never of
-/// others.
-void prepare_output_folder(const std::filesystem::path& folder, bool overwrite);
+/// others, and none of those that were `read` to make the results.
+void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
+                           const std::vector<std::filesystem::path>& read = {});
+
+/// Makes the folder that results of many runs go to, each in a folder of its own. One that holds results of a
+/// single run is refused (InputError).
+void prepare_folder_of_runs(const std::filesystem::path& folder);
 
 }  // namespace talus

@@ -1,4 +1,5 @@
 #include "apps/program.hpp"
+#include "output/folder_lock.hpp"
 #include "output/scratch.hpp"
 #include "output/whole_file.hpp"
 
@@ -107,4 +108,12 @@ TEST_CASE("A study refuses what it cannot measure", "[apps][study]") {
   CHECK(call.code == 2);
   CHECK_THAT(call.err, Contains("block.speed [m/s]"));
   CHECK(call_talus(scratch.folder(), {"study", "missing.json", "--vary", "/time/dt=1e-4"}).code == 5);
+  const std::vector<std::string> words{"study", "small.json", "--vary", "/time/dt=1e-4", "--out", "other"};
+  std::filesystem::create_directory(scratch / "other");
+  {
+    const FolderLock theirs(scratch / "other");
+    CHECK_THAT(call_talus(scratch.folder(), words).err, Contains("another talus"));
+  }
+  scratch.write("other/run.json", "{}");
+  CHECK_THAT(call_talus(scratch.folder(), words).err, Contains("results of a single run ('run.json')"));
 }

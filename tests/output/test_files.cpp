@@ -81,4 +81,11 @@ TEST_CASE("results are not overwritten unasked, other files never", "[output][fi
   CHECK(std::filesystem::exists(folder / "frames/photo.vtu"));
   CHECK(read_whole_file(folder / "notes.txt") == "mine");
   CHECK_THROWS_AS(prepare_output_folder(folder / "notes.txt", true), InputError);
+  scratch.write("out/deep/resolved.json", "{}");
+  CHECK_THROWS_WITH(prepare_output_folder(folder, true, {folder / "notes.txt", folder / "resolved.json"}),
+                    Contains("resolved.json' is read to make the results"));
+  CHECK_THROWS_WITH(prepare_folder_of_runs(folder), Contains("a single run ('resolved.json')"));
+  CHECK(std::filesystem::exists(folder / "resolved.json"));
+  CHECK_NOTHROW(prepare_output_folder(folder, true, {folder / "notes.txt"}));
+  CHECK_NOTHROW(prepare_folder_of_runs(folder));
 }
