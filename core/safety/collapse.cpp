@@ -99,4 +99,10 @@ double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
   return std::sqrt(seen * pieces_[piece].width / end.moved[piece]);
 }
 
+double Pieces::time_to_tell(double acceleration) const {
+  double width = 0;
+  for (const FollowedPiece& piece : pieces_) width = std::max(width, piece.width);
+  return std::sqrt(2 * seen * width / acceleration);
+}
+
 }  // namespace talus

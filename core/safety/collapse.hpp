@@ -40,6 +40,9 @@ class Pieces {
   /// accelerated.
   double times_to_tell(std::size_t piece, const PieceMotions& end) const;
 
+  /// s, after which the widest piece has come far enough to tell, from rest at this acceleration, m/s².
+  double time_to_tell(double acceleration) const;
+
  private:
   /// [vertex] of the parts of all bodies that can fail: its piece and where it was then.
   struct Vertex {

@@ -67,6 +67,7 @@ class Reduction {
     warn_of_brittle_bonds();
     geometry_ = whole.geometry();
     pieces_.emplace(whole);
+    warn_of_short_runs();
   }
 
   bool settled() const { return settled_; }
@@ -111,6 +112,18 @@ class Reduction {
         "is below that of limit equilibrium; `cohesive_overlap` with a softening_slip of some 1e-3 m lets "
         "both "
         "come to their strength");
+  }
+
+  /// What lacks a share of its strength gains at most that share of gravity.
+  void warn_of_short_runs() {
+    const double gravity = std::hypot(scene_.gravity.x, scene_.gravity.y);
+    if (!(gravity > 0)) return;
+    const double wanted = pieces_->time_to_tell(settings_.tolerance * gravity);
+    if (scene_.time.end >= wanted) return;
+    warnings_.push_back(
+        fmt::format("runs of up to {:.3g} s are too short to see a body fail that lacks {:.3g} % of its "
+                    "strength: the factor may be less; give it a /time/end of {:.2g} s at least",
+                    scene_.time.end, 100 * settings_.tolerance, 1.1 * wanted / longest));
   }
 
   void warn_of_locking(const Simulation& whole) {

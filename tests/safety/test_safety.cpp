@@ -144,7 +144,7 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
                           "friction_angle": 0, "cohesion": 1e6, "dilation_angle": 0}},
       "bodies": [{"name": "a", "material": "r", "polygon": [[0, 0], [2, 0], [2, 2], [0, 2]], "fix": ["y"],
                   "cover": {"model": "hexagonal", "size": 0.7}}],
-      "time": {"end": 0.01}, "settle": {"duration": 0.01, "damping": 20}})");
+      "time": {"end": 0.02}, "settle": {"duration": 0.01, "damping": 20}})");
   const std::vector<std::string> locking = factor_of_safety(yielding, {.highest = 1.1}).warnings;
   REQUIRE(locking.size() == 1);
   CHECK_THAT(locking[0], Catch::Contains("lock where they yield") && Catch::Contains("a"));
@@ -238,6 +238,18 @@ TEST_CASE("What slides at a steady speed has failed", "[safety]") {
 TEST_CASE("A factor depends neither on the size of a block nor on the time it is given", "[safety]") {
   CHECK(factor_of(on_a_plane(50)) == Approx(on_a_plane_due).epsilon(0.015));
   CHECK(factor_of(on_a_plane(1, {{"/time/end", "0.05"}})) == Approx(on_a_plane_due).epsilon(0.015));
+}
+
+TEST_CASE("Runs that are too short to see a body fail are told of, with the time it takes", "[safety]") {
+  const auto warnings_at = [](const char* end) {
+    return factor_of_safety(on_a_plane(50, {{"/time/end", end}}), {.highest = 1.1}).warnings;
+  };
+  // √(2 · 50 m / 1000 / (0.01 g)) = 1.0 s, an eighth of which and some more.
+  const std::vector<std::string> warnings = warnings_at("0.05");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Catch::Contains("up to 0.4 s are too short") && Catch::Contains("/time/end of 0.14 s at least"));
+  CHECK(warnings_at("0.14").empty());
 }
 
 TEST_CASE("Drives and velocities at the start are no collapse", "[safety]") {
