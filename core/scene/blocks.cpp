@@ -141,7 +141,7 @@ class Expander {
       good = false;
       mistakes_.add(
           below(section.pointer_to("joint_sets"), i) + "/spacing",
-          fmt::format("{} would make about {:.2g} joints of one set: expected {:.0e} at most; is it "
+          fmt::format("{} would make about {:.3g} joints of one set: expected {:.0e} at most; is it "
                       "in metres?",
                       joints.sets[i].spacing, lines, most_lines));
     }
@@ -195,7 +195,7 @@ class Expander {
     const double blocks = estimate(joints, box);
     if (blocks > most_blocks_) {
       mistakes_.add(section.pointer(),
-                    fmt::format("this would make about {:.2g} blocks: expected {:.0e} at most; are the "
+                    fmt::format("this would make about {:.3g} blocks: expected {:.0e} at most; are the "
                                 "spacings in metres?",
                                 blocks, most_blocks_));
       return {};

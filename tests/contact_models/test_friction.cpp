@@ -177,3 +177,58 @@ TEST_CASE("The friction of a base is that of the base, not that of the sides bes
     CHECK(-sliding.on(1).x == Approx(mu * sliding.on(1).y).epsilon(1e-12));
   }
 }
+
+namespace {
+
+/// A square that stands on a corner, 2 mm deep in a flat, one of its sides leaning by `tilt`.
+std::vector<HeldBody> tilted_in_flat(double tilt) {
+  const double angle = tilt * 3.14159265358979323846 / 180, c = std::cos(angle), s = std::sin(angle);
+  return {box(-1, -1, 1, 0), held({{0, -2e-3}, {c, s - 2e-3}, {c - s, s + c - 2e-3}, {-s, c - 2e-3}})};
+}
+
+}  // namespace
+
+TEST_CASE("A corner that slides is held by the friction of what presses it, and by no dashpot", "[laws]") {
+  for (const std::string law : {"overlap_area", "cohesive_overlap", "frictionless"}) {
+    for (const double tilt : {10.0, 30.0, 45.0}) {
+      for (const double master_share : {0.0, 0.5, 1.0}) {
+        for (const bool plain : {true, false}) {
+          INFO(law << ", tilt " << tilt << ", share " << master_share << (plain ? ", plain" : ""));
+          LawBench bench(law, with(lively_interface(), {{"normal_damping", 0.3}}));
+          bench.bodies = tilted_in_flat(tilt);
+          bench.master_share = master_share;
+          bench.plain = plain;
+          const double pressed = bench.step().on(1).y;
+          bench.bodies[1].motion.velocity = {1, 0};
+          const Evaluation sliding = bench.step(1e-2);
+          const double friction = law == "frictionless" ? 0 : mu;
+          CHECK(sliding.on(1).y == Approx(pressed));
+          CHECK(std::abs(sliding.on(1).x + friction * pressed) <= 1e-9 * pressed);
+          CHECK(sliding.pairs[0].damping_power <= 1e-9 * pressed * 1e-2);
+          REQUIRE(sliding.contacts.size() == 1);
+          CHECK(sliding.contacts[0].py == Approx(pressed));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("Normal dashpots of a corner: the stated share of critical on its chord", "[laws]") {
+  for (const double tilt : {20.0, 45.0}) {
+    for (const double master_share : {0.0, 0.5, 1.0}) {
+      INFO("tilt " << tilt << ", share " << master_share);
+      LawBench bench("frictionless", with(lively_interface(), {{"normal_damping", 0.2}}));
+      bench.bodies = tilted_in_flat(tilt);
+      bench.master_share = master_share;
+      const Evaluation still = bench.look();
+      bench.bodies[1].motion.velocity = {0.003, -0.01};
+      const Evaluation e = bench.look(1e-6);
+      const double angle = tilt * 3.14159265358979323846 / 180,
+                   chord = 2e-3 * (1 / std::tan(angle) + std::tan(angle));
+      const double whole = 2 * 0.2 * std::sqrt(1e9 * chord * bench.given().pairs[0].reduced_mass) * 0.01;
+      CHECK(e.on(1).y - still.on(1).y == Approx(whole).epsilon(1e-5));
+      CHECK(std::abs(e.on(1).x) <= 1e-6 * whole);
+      CHECK(e.pairs[0].damping_power == Approx(whole * 0.01 * 1e-6).epsilon(1e-5));
+    }
+  }
+}

@@ -53,7 +53,7 @@ const Hostile hostile_scenes[] = {
      "are the spacings in metres?"},
     {"joints a hand apart on a kilometre",
      [] { return blocks(R"("joint_sets": [{"dip": 90, "spacing": 50}, {"dip": -20, "spacing": 0.1}])"); },
-     "/blocks/0/joint_sets/1/spacing: 0.1 would make about 1.3e+04 joints of one set"},
+     "/blocks/0/joint_sets/1/spacing: 0.1 would make about 1.28e+04 joints of one set"},
     {"cells in a sliver",
      [] { return blocks(R"("voronoi": {"count": 100})", "[[0, 10], [1000, 1010], [1000, 1010.00001]]"); },
      "too little to find points within"},

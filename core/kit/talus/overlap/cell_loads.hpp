@@ -28,9 +28,10 @@ struct Cell {
   std::uint32_t side;
   Point normal;  ///< outward of the master
   Point foot;    ///< on the side, below the centroid
-  double load;   ///< N/m, normal
+  double load;   ///< N/m, normal, of the springs
   InterfaceParameters interface;
   std::uint32_t segment_start, segment_end;
+  double pressed = 0;  ///< N/m, what springs and dashpots bear along the normal of the contact
 };
 
 /// A sub-segment of the slave within a cell (Fig. 5), with its trapezoid load as two end loads.

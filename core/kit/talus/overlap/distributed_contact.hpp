@@ -76,6 +76,7 @@ class DistributedContact {
   void evaluate_pair(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
                      const BodyPair& pair, PairReport& report) {
     const std::uint32_t overlaps = finder_.find(batch, pair);
+    pressing_.assign(overlaps, {0, 0});
     const std::uint32_t groups = finder_.group();
     report = {};
     report.contact_count = groups;
@@ -171,7 +172,9 @@ class DistributedContact {
           report.stored += load * depth;
           foot = region.centroid + depth * normal;
         }
-        normal_on_b_ = normal_on_b_ + (master_body == 0 ? load : -load) * normal;
+        const Point on_b = (master_body == 0 ? load : -load) * normal;
+        normal_on_b_ = normal_on_b_ + on_b;
+        pressing_[member] = pressing_[member] + on_b;
         sink.on_side(master, side, master.lever(side, foot), -load * normal);
         balance_.add(foot, -load * normal);
         for (std::size_t s = first_segment; s < segments_.size(); ++s) {
@@ -295,12 +298,20 @@ class DistributedContact {
     sink.couple(at.master, at.side, -balance_.moment_about(at.foot));
   }
 
-  /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it.
+  /// §3.2.2: n_c is the direction of the resultant, s_c is perpendicular to it. A cell presses along n_c with
+  /// a part of its load only: what presses a corner from both its sides adds no friction to it.
   void find_tangent() {
     const double size = length(normal_on_b_);
     const Point normal = size > 0 ? (1 / size) * normal_on_b_ : cells_[0].normal;
     tangent_ = {-normal.y, normal.x};
+    for (Cell& cell : cells_)
+      cell.pressed = std::max(0.0, dot(on_slave(cell, normal), cell.normal)) * cell.load;
   }
+
+  Point normal_of_contact() const { return {tangent_.y, -tangent_.x}; }  ///< on body b
+
+  /// What acts on body b as it acts on the slave of a cell.
+  static Point on_slave(const Cell& cell, Point on_b) { return cell.master == 0 ? on_b : -1.0 * on_b; }
 
   /// Eq. 38 with dl projected on s_c, so that both arcs, which share their ends, have one length and a pair
   /// carried along together does not slip. Where strips end within an overlap the arcs do not share their
@@ -332,9 +343,11 @@ class DistributedContact {
     if (!measurable) contact_length_ = 0;
   }
 
-  /// A dashpot along the contact, never pulling: η per metre such that ηL is the ratio of 2√(α_N L m).
+  /// A dashpot along the normal of each overlap, never pulling: η per metre such that ηL is the ratio of
+  /// 2√(α_N L m). Along the normals of its sides instead it would brake a corner that slides.
   void normal_damping(const LoadSink& sink, const BodyPair& pair, double dt, PairReport& report) {
     if (contact_length_ == 0) return;
+    const Point normal_on_b = normal_of_contact();
     for (Cell& cell : cells_) {
       if (cell.interface.normal_damping == 0) continue;
       const double share = cell.master == 0 ? pair.master_share() : 1 - pair.master_share();
@@ -343,35 +356,44 @@ class DistributedContact {
           std::sqrt(cell.interface.normal_stiffness * pair.reduced_mass / contact_length_);
       const Piece& master = cell.overlap->piece[cell.master];
       const Piece& slave = cell.overlap->piece[1 - cell.master];
-      double on_end = cell.load * master.lever(cell.side, cell.foot);
+      const Point along = normal_of_overlap(cell);
+      const double along_contact = std::max(0.0, dot(along, on_slave(cell, normal_on_b)));
+      double pressed = cell.pressed, on_end = pressed * master.lever(cell.side, cell.foot);
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
         const Segment& segment = segments_[s];
+        // A slave side that leans pushes along the normal with a part of its load only.
+        const double facing = std::max(0.0, -dot(slave.normal(segment.side), along));
         double rate[2];
         for (int end = 0; end < 2; ++end) {
           const Point at = segment.at[end];
-          const Point velocity = slave.velocity_at(segment.side, slave.lever(segment.side, at)) -
-                                 master.velocity_at(cell.side, master.lever(cell.side, at));
-          rate[end] = -dot(velocity, cell.normal);
+          rate[end] = master.velocity_inside(cell.side, at, along) -
+                      dot(along, slave.velocity_at(segment.side, slave.lever(segment.side, at)));
         }
-        // A slave side that leans pushes along the normal of the cell with a part of its load only.
         for (int end = 0; end < 2; ++end) {
-          const double viscous =
-              viscosity * segment.facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
-          const double force = std::max(viscous, -segment.facing * segment.load[end]);
+          const double viscous = viscosity * facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
+          const double force = std::max(viscous, -facing * segment.load[end]);
           const Point at = segment.at[end];
-          sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * cell.normal);
-          sink.on_side(master, cell.side, master.lever(cell.side, at), -force * cell.normal);
+          sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * along);
+          sink.inside(master, cell.side, at, -force * along);
+          normal_on_b_ = normal_on_b_ + on_slave(cell, force * along);
           report.damping_power += force * rate[end] * dt;
           report.damping_force += static_cast<float>(std::abs(force));
-          cell.load += force;
-          on_end += force * master.lever(cell.side, at);
+          pressed += force * along_contact;
+          on_end += force * along_contact * master.lever(cell.side, at);
         }
       }
-      cell.load = std::max(0.0, cell.load);
+      cell.pressed = std::max(0.0, pressed);
       // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
       // the strain of a sliding block.
-      if (cell.load > 0) cell.foot = master.point_at(cell.side, std::clamp(on_end / cell.load, 0.0, 1.0));
+      if (pressed > 0) cell.foot = master.point_at(cell.side, std::clamp(on_end / pressed, 0.0, 1.0));
     }
+  }
+
+  /// The direction in which the springs of an overlap push the slave.
+  Point normal_of_overlap(const Cell& cell) const {
+    const Point on_b = pressing_[static_cast<std::size_t>(cell.overlap - finder_.overlaps().data())];
+    const double size = length(on_b);
+    return size > 0 ? on_slave(cell, (1 / size) * on_b) : cell.normal;
   }
 
   /// Eqs. 37–44. Tangential loads act on both bodies at one common point of each cell, shared by μ_k P_k.
@@ -379,10 +401,10 @@ class DistributedContact {
                  FrictionHistory& history, PairReport& report) {
     double load = 0, limit = 0, stiffness = 0, damping = 0;
     for (const Cell& cell : cells_) {
-      load += cell.load;
-      limit += cell.interface.friction * cell.load;
-      stiffness += cell.interface.tangential_stiffness * cell.load;
-      damping += cell.interface.tangential_damping * cell.load;
+      load += cell.pressed;
+      limit += cell.interface.friction * cell.pressed;
+      stiffness += cell.interface.tangential_stiffness * cell.pressed;
+      damping += cell.interface.tangential_damping * cell.pressed;
     }
     const double old_stored = history.stored, old_applied = history.applied;
     if (!(limit > 0) || contact_length_ == 0) {
@@ -409,7 +431,7 @@ class DistributedContact {
       report.damping_force += static_cast<float>(std::abs(dashpot));
     }
     for (const Cell& cell : cells_) {
-      const double part = force * cell.interface.friction * cell.load / limit;
+      const double part = force * cell.interface.friction * cell.pressed / limit;
       if (part != 0) tangential_loads(sink, cell, part);
     }
     return force * tangent_;
@@ -432,7 +454,7 @@ class DistributedContact {
         on_slave = slave.velocity_inside(any_real_side(*cell.overlap, slave), cell.foot, tangent_);
       const double on_master =
           dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.foot)));
-      const double share = cell.interface.friction * cell.load / limit;
+      const double share = cell.interface.friction * cell.pressed / limit;
       velocity += (cell.master == 0 ? share : -share) * (on_slave - on_master);
     }
     slip_velocity_ = velocity;
@@ -460,17 +482,16 @@ class DistributedContact {
     double load = 0;
     Point moment{0, 0};
     for (const Cell& cell : cells_) {
-      load += cell.load;
-      moment = moment + cell.load * cell.foot;
+      load += cell.pressed;
+      moment = moment + cell.pressed * cell.foot;
     }
     return load > 0 ? (1 / load) * moment : cells_[0].foot;
   }
 
   ContactReport contact_report(Point tangential, double slip) const {
-    Point normal{0, 0};
-    for (const Cell& cell : cells_)
-      normal = normal + (cell.master == 0 ? cell.load : -cell.load) * cell.normal;
-    const Point at = foot_of_all();
+    // Where dashpots take all of the pressure away rounding must not make it pull.
+    const Point at = foot_of_all(),
+                normal = dot(normal_on_b_, normal_of_contact()) > 0 ? normal_on_b_ : Point{0, 0};
     return {at.x, at.y, normal.x, normal.y, tangential.x, tangential.y, penetration_, slip != 0 ? 1.0 : 0.0};
   }
 
@@ -483,9 +504,11 @@ class DistributedContact {
   std::vector<Segment> segments_;
   CarriedHistory carried_;
   Balance balance_;
-  bool among_strips_ = false;  ///< whether a body of the pair has many elements
-  LoadedSide last_resort_;     ///< among strips: where what is left over goes
-  Point normal_on_b_{0, 0}, tangent_{0, 0};
+  bool among_strips_ = false;    ///< whether a body of the pair has many elements
+  LoadedSide last_resort_;       ///< among strips: where what is left over goes
+  std::vector<Point> pressing_;  ///< [overlap] N/m on body b, what its springs push with
+  Point normal_on_b_{0, 0};      ///< N/m, the same of all overlaps, and then with what dashpots push
+  Point tangent_{0, 0};
   double contact_length_ = 0, slip_velocity_ = 0, slip_increment_ = 0, penetration_ = 0;
 };
 

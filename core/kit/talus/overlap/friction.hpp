@@ -31,7 +31,7 @@ enum class FrictionRule { return_mapping, paper };
 
 struct FrictionInput {
   double stiffness;       ///< N/m per metre of thickness, α_T L
-  double limit;           ///< N/m, Σ μ_k P_k; infinite while friction is held stuck
+  double limit;           ///< N/m, Σ μ_k N_k; infinite while friction is held stuck
   double contact_length;  ///< m
   double increment;  ///< m, slip of b against a since t_{n-1}: where friction acts, or with the paper's rule
                      ///< the mean along the arcs (Eq. 38 over L)

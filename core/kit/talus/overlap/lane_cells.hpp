@@ -16,8 +16,7 @@ struct LaneSegment {
   Pack start, end;              ///< along the slave side, 0 to 1
   Pack start_depth, end_depth;  ///< m, (2d₁ + d₂)/6 and (d₁ + 2d₂)/6: how a linear load goes to both ends
   Pack length;                  ///< m, along the slave
-  Pack start_lever, end_lever;  ///< along the master side, 0 to 1; for dashpots alone, as is the next
-  Pack facing;                  ///< m, projected on the master side, where it faces that
+  Pack start_lever, end_lever;  ///< along the master side, 0 to 1; for dashpots alone
 };
 
 /// The cell of one master side.
@@ -231,7 +230,6 @@ class LaneCells {
     if (damped_) {
       at.start_lever = s0 * inverse_length;
       at.end_lever = s1 * inverse_length;
-      at.facing = simd::max(0.0, -run);
     }
     arc = arc + part * span;
     arc_length = arc_length + at.length;

@@ -52,8 +52,20 @@ class LaneLoads {
     report.stored = roles_ == 2 ? cells_[0].stored + cells_[1].stored : cells_[0].stored;
     report.penetration =
         roles_ == 2 ? simd::max(cells_[0].penetration, cells_[1].penetration) : cells_[0].penetration;
-    load_normally(g, interface, stiffness, share, batch.dt, damped, report);
-    if constexpr (Law::frictional) friction<sides, other_sides>(g, interface, batch, report);
+    if (damped || Law::frictional) {
+      const auto triangle = piece_[0].template largest_triangle<sides>();
+      const auto other = piece_[1].template largest_triangle<other_sides>();
+      const Sliding sliding(piece_[0], piece_[0].template motion<sides>(triangle), piece_[1],
+                            piece_[1].template motion<other_sides>(other));
+      Between between = load_normally(g, interface, stiffness, share, sliding, batch.dt, damped, report);
+      if constexpr (Law::frictional) friction(g, interface, sliding, batch, between, report);
+      piece_[1].template push_at_points<other_sides>(other, between.force, between.moment_x,
+                                                     between.moment_y);
+      piece_[0].template push_at_points<sides>(triangle, -between.force, -between.moment_x,
+                                               -between.moment_y);
+    } else {
+      press(stiffness);
+    }
     const LaneBits unserved = simd::bits(refused) & g.live;
     write<sides, other_sides>(loads, g, report, g.live & ~unserved);
     return unserved;
@@ -65,7 +77,7 @@ class LaneLoads {
   /// of a point. An arc that closes on itself has no length.
   void find_tangent() {
     const Packs2 force = roles_ == 2 ? cells_[0].force - cells_[1].force : cells_[0].force;
-    const Pack size = simd::sqrt(simd::dot(force, force));
+    const Pack size = spring_force_ = simd::sqrt(simd::dot(force, force));
     const Pack inverse = simd::only_where(size > 0.0, 1.0 / size);  // springs may have no stiffness
     tangent_ = {-force.y * inverse, force.x * inverse};
     contact_length_ = simd::abs(simd::dot(cells_[0].arc, tangent_));
@@ -78,52 +90,110 @@ class LaneLoads {
     contact_length_ = simd::only_where(contact_length_ > 1e-9 * longest, contact_length_);
   }
 
+  Packs2 normal_of_contact() const { return {tangent_.y, -tangent_.x}; }  ///< on piece 1
+
   struct Report {
     Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0, damping_force = 0.0;
     Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
     Packs2 foot;            ///< m, where it acts
     Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
+    Pack dashpots = 0.0;    ///< N/m along the normal, on piece 1
   };
 
-  /// Puts the pressure on both pieces, and a dashpot along the normal of each cell.
-  void load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness, Pack share,
-                     double dt, bool damped, Report& report) {
-    if (!damped) {
-      each_cell([&](LaneCell& cell) { load_cell<false>(cell, stiffness, 0.0); });
-      return;
+  /// How piece 1 moves against piece 0: the velocity, m/s, where corner 0 of that is, and how it changes,
+  /// 1/s.
+  struct Sliding {
+    Packs2 origin, velocity, by_x, by_y;
+
+    Sliding(const LanePiece<corners>& piece, const typename LanePiece<corners>::Motion& motion,
+            const LanePiece<corners>& other, const typename LanePiece<corners>::Motion& of_other)
+        : origin(piece.corner[0].at), by_x(of_other.by_x - motion.by_x), by_y(of_other.by_y - motion.by_y) {
+      const Packs2 from = origin - other.corner[0].at;
+      velocity = of_other.start - motion.start + (from.x * of_other.by_x + from.y * of_other.by_y);
     }
-    const Pack viscosity = simd::only_where(
-        contact_length_ > 0.0,
-        share * 2.0 * interface.normal_damping *
-            simd::sqrt(interface.normal_stiffness * simd::load(g.reduced_mass) / contact_length_));
-    Dashpots all;
-    each_cell([&](LaneCell& cell) {
-      const Dashpots of_cell = load_cell<true>(cell, stiffness, viscosity);
-      all = {all.power + of_cell.power, all.force + of_cell.force};
+    Packs2 at(Packs2 point) const {
+      const Packs2 from = point - origin;
+      return velocity + (from.x * by_x + from.y * by_y);
+    }
+  };
+
+  /// Forces on piece 1 at points that both pieces have in common: their sum, N/m, and those of either
+  /// component times where they act, N.
+  struct Between {
+    Packs2 force, moment_x, moment_y;
+  };
+
+  /// Puts the pressure on both pieces. Returns what dashpots along the normal of the contact do: along the
+  /// normals of its sides they would brake a corner that slides.
+  Between load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness,
+                        Pack share, const Sliding& sliding, double dt, bool damped, Report& report) {
+    const Packs2 none{0.0, 0.0};
+    if (!damped) {
+      press(stiffness);
+      return {none, none, none};
+    }
+    const Packs2 normal = normal_of_contact();
+    const Closing closing{
+        simd::only_where(contact_length_ > 0.0, share * 2.0 * interface.normal_damping *
+                                                    simd::sqrt(interface.normal_stiffness *
+                                                               simd::load(g.reduced_mass) / contact_length_)),
+        sliding.origin,
+        -simd::dot(normal, sliding.velocity),
+        {-simd::dot(normal, sliding.by_x), -simd::dot(normal, sliding.by_y)}};
+    Dashpots dashpots;
+    each_cell([&](LaneCell& cell, Packs2 along) {
+      dashpots.add(load_cell<true>(cell, along, stiffness, closing));
     });
-    report.damping_power = all.power * dt;
-    report.damping_force = all.force;
+    report.damping_power = dashpots.power * dt;
+    report.damping_force = dashpots.size;
+    report.dashpots = dashpots.force;
+    return {dashpots.force * normal, normal.x * dashpots.moment, normal.y * dashpots.moment};
   }
 
+  void press(Pack stiffness) {
+    each_cell([&](LaneCell& cell, Packs2 along) { load_cell<false>(cell, along, stiffness, {}); });
+  }
+
+  /// Calls visit(cell, direction in which it pushes its slave).
   template <class Visit>
   void each_cell(const Visit& visit) {
-    for (int role = 0; role < roles_; ++role) {
-      for (LaneCell& cell : cells_[role].cells()) visit(cell);
-    }
+    const Packs2 normal = normal_of_contact();
+    for (LaneCell& cell : cells_[0].cells()) visit(cell, normal);
+    if (roles_ == 1) return;
+    for (LaneCell& cell : cells_[1].cells()) visit(cell, -normal);
   }
 
+  /// How the bodies of a contact, which move by one affine map each, close in on each other along its normal,
+  /// and what its dashpots make of that.
+  struct Closing {
+    Pack viscosity;  ///< N s/m², of one role
+    Packs2 origin;   ///< m
+    Pack speed;      ///< m/s, there
+    Packs2 change;   ///< 1/s, of it
+  };
   struct Dashpots {
-    Pack power = 0.0, force = 0.0;
+    Pack power = 0.0, size = 0.0;  ///< W/m; N/m, Σ|F|
+    Pack force = 0.0;              ///< N/m, ΣF
+    Packs2 moment{0.0, 0.0};       ///< N, Σ F times where it acts
+
+    void add(const Dashpots& other) {
+      power = power + other.power;
+      size = size + other.size;
+      force = force + other.force;
+      moment = moment + other.moment;
+    }
   };
 
   /// Eqs. 28–36: on the slave by the trapezoid rule, on the master through the foot. The dashpot never pulls.
   template <bool damped>
-  static Dashpots load_cell(LaneCell& cell, Pack stiffness, Pack viscosity) {
+  static Dashpots load_cell(LaneCell& cell, Packs2 along, Pack stiffness, const Closing& closing) {
     LaneCorner* const master = cell.master;
     const Packs2 normal = master->normal();
-    const Pack master_start = simd::dot(normal, master->velocity),
-               master_change = simd::dot(normal, master[1].velocity) - master_start;
-    Pack all = cell.load, on_end = cell.on_end;
+    master[0].push(cell.on_end - cell.load, normal);
+    master[1].push(-cell.on_end, normal);
+    // What presses a corner from both its sides adds no friction to it.
+    const Pack part = simd::max(0.0, simd::dot(along, normal));
+    Pack all = part * cell.load, on_end = part * cell.on_end;
     Dashpots dashpots;
     for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
       LaneCorner* const slave = at->slave;
@@ -131,29 +201,26 @@ class LaneLoads {
       const Pack press0 = pressed * at->start_depth, press1 = pressed * at->end_depth;
       const Pack press_end = press0 * at->start + press1 * at->end, press_start = press0 + press1 - press_end;
       const Packs2 inward{-slave->tangent.y, slave->tangent.x};
-      if constexpr (!damped) {
-        slave[0].push(press_start, inward);
-        slave[1].push(press_end, inward);
-        continue;
-      }
-      const Pack slave_start = simd::dot(normal, slave->velocity),
-                 slave_change = simd::dot(normal, slave[1].velocity) - slave_start;
-      const Pack start = master_start - slave_start;
-      const Pack rate0 = start + at->start_lever * master_change - at->start * slave_change;
-      const Pack rate1 = start + at->end_lever * master_change - at->end * slave_change;
-      const Pack scale = viscosity * at->facing * (1.0 / 6.0), most = -stiffness * at->facing;
+      slave[0].push(press_start, inward);
+      slave[1].push(press_end, inward);
+      if constexpr (!damped) continue;
+      const Packs2 span = slave[1].at - slave->at;
+      const Pack start = closing.speed + simd::dot(closing.change, slave->at - closing.origin),
+                 change = simd::dot(closing.change, span);
+      const Pack rate0 = start + at->start * change, rate1 = start + at->end * change;
+      // A slave side that leans pushes along the normal with a part of its load only.
+      const Pack facing = at->length * simd::max(0.0, simd::dot(inward, along));
+      const Pack scale = closing.viscosity * facing * (1.0 / 6.0), most = -stiffness * facing;
       const Pack force0 = simd::max(scale * (rate0 + rate0 + rate1), most * at->start_depth);
       const Pack force1 = simd::max(scale * (rate1 + rate1 + rate0), most * at->end_depth);
-      const Pack both = force0 + force1, damp_end = force0 * at->start + force1 * at->end;
-      slave[0].load = slave[0].load + (press_start * inward + (both - damp_end) * normal);
-      slave[1].load = slave[1].load + (press_end * inward + damp_end * normal);
+      const Pack both = force0 + force1;
       all = all + both;
       on_end = on_end + (force0 * at->start_lever + force1 * at->end_lever);
+      dashpots.force = dashpots.force + both;
+      dashpots.moment = dashpots.moment + (both * slave->at + (force0 * at->start + force1 * at->end) * span);
       dashpots.power = dashpots.power + (force0 * rate0 + force1 * rate1);
-      dashpots.force = dashpots.force + (simd::abs(force0) + simd::abs(force1));
+      dashpots.size = dashpots.size + (simd::abs(force0) + simd::abs(force1));
     }
-    master[0].push(on_end - all, normal);
-    master[1].push(-on_end, normal);
     // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
     // the strain of a sliding block.
     cell.load = simd::max(0.0, all);
@@ -195,16 +262,11 @@ class LaneLoads {
   /// Eqs. 37–44: the slip is that through which the tangential load works. Cells take it by their loads, on
   /// both bodies at one common point each; of bodies that move by one affine map this is the same as all of
   /// it at the foot of all.
-  template <int sides, int other_sides>
-  void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const ContactBatch& batch,
-                Report& report) {
+  void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const Sliding& sliding,
+                const ContactBatch& batch, Between& between, Report& report) {
     const Pack load = load_of_all();
     const Packs2 foot = foot_of_all(load);
-    Pack share[corners], other_share[corners];
-    piece_[0].template share_point<sides>(foot, share);
-    piece_[1].template share_point<other_sides>(foot, other_share);
-    const Pack slip = simd::dot(tangent_, piece_[1].template velocity_of<other_sides>(other_share) -
-                                              piece_[0].template velocity_of<sides>(share));
+    const Pack slip = simd::dot(tangent_, sliding.at(foot));
     const Pack increment = slip * batch.dt;
 
     Pack old[4];
@@ -243,8 +305,9 @@ class LaneLoads {
       report.damping_force = report.damping_force + simd::abs(dashpot);
     }
     const Packs2 force = report.tangential * tangent_;
-    piece_[0].template push_point<sides>(share, Pack(-1.0) * force);
-    piece_[1].template push_point<other_sides>(other_share, force);
+    between.force = between.force + force;
+    between.moment_x = between.moment_x + force.x * foot;
+    between.moment_y = between.moment_y + force.y * foot;
     report.foot = foot;
   }
 
@@ -305,12 +368,9 @@ class LaneLoads {
 
   void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
                       LaneBits wanted) const {
-    Packs2 normal{0.0, 0.0};
-    for (int role = 0; role < roles_; ++role) {
-      for (const LaneCell& cell : cells_[role].cells())
-        normal = normal + (role == 0 ? cell.load : -cell.load) * cell.master->normal();
-    }
-    const Packs2 foot = foot_of_all(load_of_all());
+    const Pack load = load_of_all();
+    const Packs2 normal = simd::max(0.0, spring_force_ + report.dashpots) * normal_of_contact(),
+                 foot = foot_of_all(load);
     const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
     alignas(64) double value[8][lanes];
     simd::store(foot.x, value[0]);
@@ -332,7 +392,7 @@ class LaneLoads {
   LaneCells<corners> cells_[2];
   int roles_ = 1;
   Packs2 tangent_;
-  Pack contact_length_;
+  Pack contact_length_, spring_force_;
 };
 
 }  // namespace TALUS_SIMD_LEVEL

@@ -127,10 +127,15 @@ struct LanePiece {
     }
   }
 
-  /// [corner] shares by which a point is a mean of corners, those of the largest triangle of the fan from
-  /// corner 0: exact for whatever is affine over the piece, as the motion of plain bodies is.
+  /// The largest triangle of the fan from corner 0. What is affine over the piece, as the motion of plain
+  /// bodies is, follows from its corners.
+  struct Triangle {
+    Packs2 first, second;  ///< m, from corner 0 to corners `number` and `number` + 1
+    Pack number;
+    Pack inverse;  ///< 1/m², of their cross product
+  };
   template <int sides>
-  void share_point(Packs2 point, Pack* share) const {
+  Triangle largest_triangle() const {
     constexpr int count = corners_of(sides, corners);
     Packs2 first = corner[1].at - corner[0].at, edge[2] = {first, corner[2].at - corner[0].at};
     Packs2 second = edge[1];
@@ -145,31 +150,35 @@ struct LanePiece {
       second = simd::select(larger, edge[1], second);
       number = simd::select(larger, static_cast<double>(i), number);
     }
-    const Packs2 from = point - corner[0].at;
-    const Pack inverse = 1.0 / largest;
-    const Pack of_first = simd::cross(from, second) * inverse, of_second = simd::cross(first, from) * inverse;
-    share[0] = 1.0 - of_first - of_second;
-    if constexpr (count == 3) {
-      share[1] = of_first;
-      share[2] = of_second;
-    } else {
-      share[1] = simd::only_where(number == 1.0, of_first);
-      for (int i = 2; i < count; ++i)
-        share[i] = simd::select(number == static_cast<double>(i), of_first,
-                                simd::only_where(number == static_cast<double>(i - 1), of_second));
+    return {first, second, number, 1.0 / largest};
+  }
+
+  /// How it moves: the velocity of corner 0, m/s, and how it changes along x and y, 1/s.
+  struct Motion {
+    Packs2 start, by_x, by_y;
+  };
+  template <int sides>
+  Motion motion(const Triangle& of) const {
+    Packs2 first = corner[1].velocity, second = corner[2].velocity;
+    for (int i = 2; i + 1 < corners_of(sides, corners); ++i) {
+      const Mask here = of.number == static_cast<double>(i);
+      first = simd::select(here, corner[i].velocity, first);
+      second = simd::select(here, corner[i + 1].velocity, second);
     }
+    first = of.inverse * (first - corner[0].velocity);
+    second = of.inverse * (second - corner[0].velocity);
+    return {corner[0].velocity, of.second.y * first - of.first.y * second,
+            of.first.x * second - of.second.x * first};
   }
 
+  /// Loads the corners by forces at some points: their sum, N/m, and those of either component times where
+  /// they act, N.
   template <int sides>
-  Packs2 velocity_of(const Pack* share) const {
-    Packs2 sum = share[0] * corner[0].velocity;
-    for (int i = 1; i < corners_of(sides, corners); ++i) sum = sum + share[i] * corner[i].velocity;
-    return sum;
-  }
-
-  template <int sides>
-  void push_point(const Pack* share, Packs2 force) {
-    for (int i = 0; i < corners_of(sides, corners); ++i) corner[i].push(share[i], force);
+  void push_at_points(const Triangle& of, Packs2 force, Packs2 moment_x, Packs2 moment_y) {
+    Pack x[corners], y[corners];
+    share_out<sides>(of, force.x, moment_x, x);
+    share_out<sides>(of, force.y, moment_y, y);
+    for (int i = 0; i < corners_of(sides, corners); ++i) corner[i].load = corner[i].load + Packs2{x[i], y[i]};
   }
 
   /// Where the corners are and how the sides run, no more.
@@ -179,6 +188,25 @@ struct LanePiece {
   }
 
  private:
+  /// [corner] what corners have of weights at some points, of which `moment` is the sum times where they are.
+  template <int sides>
+  void share_out(const Triangle& of, Pack weight, Packs2 moment, Pack* share) const {
+    constexpr int count = corners_of(sides, corners);
+    const Packs2 from = moment - weight * corner[0].at;
+    const Pack first = simd::cross(from, of.second) * of.inverse,
+               second = simd::cross(of.first, from) * of.inverse;
+    share[0] = weight - first - second;
+    if constexpr (count == 3) {
+      share[1] = first;
+      share[2] = second;
+    } else {
+      share[1] = simd::only_where(of.number == 1.0, first);
+      for (int i = 2; i < count; ++i)
+        share[i] = simd::select(of.number == static_cast<double>(i), first,
+                                simd::only_where(of.number == static_cast<double>(i - 1), second));
+    }
+  }
+
   template <int sides, bool whole>
   void read_each(const BoundaryCorner* from, const LaneRows<corners>& rows, Packs2 offset) {
     if constexpr (sides == mixed) std::memcpy(real, rows.real, sizeof real);

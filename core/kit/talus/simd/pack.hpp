@@ -52,6 +52,9 @@ inline Packs2 operator+(Packs2 p, Packs2 q) {
 inline Packs2 operator-(Packs2 p, Packs2 q) {
   return {p.x - q.x, p.y - q.y};
 }
+inline Packs2 operator-(Packs2 p) {
+  return {-p.x, -p.y};
+}
 inline Packs2 operator*(Pack s, Packs2 p) {
   return {s * p.x, s * p.y};
 }
