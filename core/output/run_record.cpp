@@ -19,7 +19,8 @@ void add_component(std::vector<UsedLibrary>& used, const RegisteredComponent* co
   if (component == nullptr) return;
   const auto same_file = [&](const UsedLibrary& entry) { return entry.file == component->file; };
   auto entry = std::find_if(used.begin(), used.end(), same_file);
-  if (entry == used.end()) entry = used.insert(used.end(), {component->library, component->file, {}});
+  if (entry == used.end())
+    entry = used.insert(used.end(), {component->library, component->file, component->opened, {}});
   const std::string name = component->component->name;
   if (std::find(entry->components.begin(), entry->components.end(), name) == entry->components.end()) {
     entry->components.push_back(name);
@@ -39,8 +40,8 @@ Json libraries_json(const Scene& scene) {
                     {"author", text_of(used.library->author)},
                     {"components", used.components},
                     {"file", used.file.filename().string()},
-                    {"path", used.file.string()},
-                    {"xxh3_128", hash_of_file(used.file)}});
+                    {"path", used.opened.string()},
+                    {"xxh3_128", hash_of_file(used.opened)}});
   }
   return list;
 }
@@ -120,7 +121,7 @@ std::vector<UsedLibrary> used_libraries(const Scene& scene) {
 std::vector<Checkpoint::UsedLibrary> hashed_libraries(const Scene& scene) {
   std::vector<Checkpoint::UsedLibrary> hashed;
   for (const UsedLibrary& used : used_libraries(scene))
-    hashed.push_back({used.file.filename().string(), hash_of_file(used.file)});
+    hashed.push_back({used.file.filename().string(), hash_of_file(used.opened)});
   return hashed;
 }
 

@@ -11,7 +11,7 @@ namespace talus {
 /// A library whose components a scene uses.
 struct UsedLibrary {
   const Library* library;
-  std::filesystem::path file;
+  std::filesystem::path file, opened;   ///< see RegisteredComponent
   std::vector<std::string> components;  ///< those in use
 };
 

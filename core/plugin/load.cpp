@@ -77,8 +77,8 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
   if (!fs::is_regular_file(file, problem))
     return "found a pipe or a device, wanted a talus plugin (lib*.so); name the file";
   const Library* library = nullptr;
+  const fs::path variant = variant_of(file, registry.simd);
   try {
-    const fs::path variant = variant_of(file, registry.simd);
     if (auto reason = reason_before_loading(variant)) return reason;
     const boost::dll::shared_library opened = open_for_good(variant);
     if (!opened.has(symbol)) return no_descriptor();
@@ -91,7 +91,7 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
   }
   if (auto reason = reason_to_refuse(*library)) return reason;
   if (auto reason = reason_of_clash(registry, *library)) return reason;
-  registry.add(*library, file);
+  registry.add(*library, file, variant);
   return std::nullopt;
 }
 

@@ -23,14 +23,15 @@ std::optional<std::string> reason_of_clash(const Registry& registry, const Libra
   return std::nullopt;
 }
 
-void Registry::add(const Library& library, const std::filesystem::path& file) {
+void Registry::add(const Library& library, const std::filesystem::path& file,
+                   const std::filesystem::path& opened) {
   // The loader hands out the same descriptor for the same file, whatever path or link leads to it.
   const bool known =
       std::ranges::any_of(components_, [&](const auto& entry) { return entry.library == &library; });
   if (known) return;
   if (const auto reason = reason_of_clash(*this, library)) throw refusal(file, *reason);
   for (std::uint32_t i = 0; i < library.component_count; ++i) {
-    components_.push_back({&library.components[i], &library, file});
+    components_.push_back({&library.components[i], &library, file, opened});
   }
 }
 

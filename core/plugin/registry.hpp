@@ -29,6 +29,7 @@ struct RegisteredComponent {
   const Component* component;
   const Library* library;
   std::filesystem::path file;
+  std::filesystem::path opened{};  ///< that, or what it is built as for the instruction set in use
 };
 
 struct RefusedLibrary {
@@ -46,7 +47,8 @@ struct OfferedLibrary {
 class Registry {
  public:
   /// Takes all components of a checked library, or none: throws PluginError when a name is already taken.
-  void add(const Library& library, const std::filesystem::path& file);
+  void add(const Library& library, const std::filesystem::path& file, const std::filesystem::path& opened);
+  void add(const Library& library, const std::filesystem::path& file) { add(library, file, file); }
 
   const RegisteredComponent* find(ComponentKind kind, std::string_view name) const;
   std::vector<std::string> names(ComponentKind kind) const;  ///< sorted

@@ -28,7 +28,7 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
     if (key == "friction_angle") {
       reduced = reduced || values[i] > 0;
       values[i] = std::atan(std::tan(values[i]) / factor);
-    } else if (key == "cohesion" || key == "tensile_strength") {
+    } else if (key == "friction_coefficient" || key == "cohesion" || key == "tensile_strength") {
       reduced = reduced || values[i] > 0;
       values[i] /= factor;
     }
