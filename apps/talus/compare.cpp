@@ -127,7 +127,7 @@ int compare_command(const Words& words) {
     const std::filesystem::path reference = here_or_shipped(named);
     const std::string text = read_whole_file(reference);
     order.reference = ReferenceFile{reference.string(), hash_of_file(reference),
-                                    read_series_text(text, reference.string()), text};
+                                    read_reference_text(text, reference.string()), text};
   }
   check_order(order);
   const bool overwrite = given->count("overwrite") != 0;

@@ -21,7 +21,8 @@ constexpr std::array codes{
         "--allow-plugins is missing"},
     Explained{"4", "numerical trouble stopped a run"},
     Explained{"5", "a file could not be read or written"},
-    Explained{"6", "a tolerance that the scene states was broken; advise: no run kept the error"},
+    Explained{"6",
+              "a tolerance that the scene states was broken or not checked; advise: no run kept the error"},
     Explained{"130",
               "interrupted or out of wall time; what was done so far is written, `talus resume` goes on"},
 };

@@ -71,15 +71,15 @@ void add_study_options(Usage& usage) {
   usage.options.add_options()(
       "vary", po::value<std::vector<std::string>>()->value_name("/pointer=a,b"),
       "what varies; may be given several times; with --sample also a range, low:high")(
-      "sample", po::value<std::size_t>()->value_name("N"),
-      "a Latin hypercube of N runs instead of all combinations")(
+      "sample", po::value<int>()->value_name("N"), "a Latin hypercube of N runs instead of all combinations")(
       "seed", po::value<std::uint64_t>()->value_name("S"), "of the sample (default: 1)")(
       "reference", po::value<std::string>()->value_name("FILE.csv"),
       "curve to measure errors from (default: the run that did the most work)")(
       "metric", po::value<std::string>()->value_name("MONITOR.QUANTITY"),
       "what errors are of (default: the first speed of a body that moves)")(
       "out,o", po::value<std::string>()->value_name("DIR"),
-      "folder for the results (default: out/<scene name>-study)")(
+      fmt::format("folder for the results (default: out/<scene name>-{})", usage.command).c_str())(
+      "overwrite", "replace runs with other values that the folder holds")(
       "repeat", po::value<int>()->value_name("N")->default_value(1),
       "make each run N times, all of them in turn, and take the median of their cost")(
       "threads", po::value<std::string>()->value_name("N"),
@@ -92,9 +92,18 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
   std::vector<Variation> variations;
   for (const std::string& text : list_option(given, "vary")) variations.push_back(parse_variation(text));
   if (variations.empty()) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
+  for (std::size_t i = 0; i < variations.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (variations[i].pointer == variations[j].pointer)
+        throw UsageError(usage.command, fmt::format("--vary {} is given twice: give all values of it at once",
+                                                    variations[i].pointer));
+    }
+  }
   if (given.count("sample") == 0) return grid(variations);
   const std::uint64_t seed = given.count("seed") == 0 ? 1 : given["seed"].as<std::uint64_t>();
-  return latin_hypercube(variations, given["sample"].as<std::size_t>(), seed);
+  const int count = given["sample"].as<int>();
+  if (count < 1) throw UsageError(usage.command, fmt::format("--sample {}: allowed are 1 and more", count));
+  return latin_hypercube(variations, static_cast<std::size_t>(count), seed);
 }
 
 Study make_study(const Usage& usage, const po::variables_map& given, const std::vector<std::string>& words,
@@ -102,13 +111,14 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   const std::filesystem::path file = text_option(given, "SCENE");
   const std::string out = text_option(given, "out");
   Study study;
-  study.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-study")
+  study.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-" + usage.command)
                              : std::filesystem::path(out);
   const bool allow_plugins = given.count("allow-plugins") != 0;
 
   StudyOrder order;
   order.folder = study.folder;
   order.plan = plan;
+  order.overwrite = given.count("overwrite") != 0;
   order.overrides = overrides_of(usage, given);
   order.scene_hash = hash_of_file(file);
   order.threads =
@@ -126,7 +136,8 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   for (const std::string& warning : plain.scene.warnings) print_warning(warning);
   const std::string column = column_of(usage, given, plain.scene);
   std::optional<Series> reference;
-  if (const std::string name = text_option(given, "reference"); !name.empty()) reference = read_series(name);
+  if (const std::string name = text_option(given, "reference"); !name.empty())
+    reference = read_reference_text(read_whole_file(name), name);
   prepare_folder_of_runs(study.folder);
   const FolderLock mine(study.folder);
 

@@ -211,7 +211,12 @@ bool Comparison::tolerances_held() const {
 void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
     if (run > 0) add_deviations(order, comparison, run, comparison.runs[0].result.history, false);
-    if (order.reference) add_deviations(order, comparison, run, order.reference->series, true);
+    if (!order.reference) continue;
+    const std::size_t before = comparison.deviations.size();
+    add_deviations(order, comparison, run, order.reference->series, true);
+    if (comparison.deviations.size() == before)
+      comparison.warnings.push_back(fmt::format("'{}' has no time in common with {}",
+                                                comparison.runs[run].value, order.reference->file));
   }
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
     const double end = order.scenes[0].time.end * (1 - 1e-9);
@@ -234,13 +239,14 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
     }
     for (std::size_t run = tolerance.against_reference ? 0 : 1; run < comparison.runs.size(); ++run) {
       ComparedTolerance& entry = comparison.tolerances.emplace_back(ComparedTolerance{tolerance, run, {}});
+      std::optional<Deviation> found;
       for (const ColumnDeviation& each : comparison.deviations) {
         if (each.run == run && each.from_reference == tolerance.against_reference &&
-            is_column_of(each.column, tolerance)) {
-          entry.checks = check(tolerance, each.deviation, cut_short(run, tolerance));
-        }
+            is_column_of(each.column, tolerance))
+          found = each.deviation;
       }
-      if (entry.checks.empty()) {
+      entry.checks = check(tolerance, found, cut_short(run, tolerance));
+      if (!found) {
         comparison.warnings.push_back(
             fmt::format("the tolerance of {}.{} was not checked for '{}': nothing to compare with",
                         tolerance.monitor, tolerance.quantity, comparison.runs[run].value));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace talus {
@@ -60,15 +61,23 @@ const char* name_of(ToleranceVerdict verdict) {
     case ToleranceVerdict::broken:
       return "broken";
     case ToleranceVerdict::cut_short:
+      return "cut short";
+    case ToleranceVerdict::unchecked:
       break;
   }
-  return "cut short";
+  return "not checked";
 }
 
-std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation, bool cut_short) {
+std::vector<ToleranceCheck> check(const Tolerance& tolerance, const std::optional<Deviation>& deviation,
+                                  bool cut_short) {
   std::vector<ToleranceCheck> checks;
-  const auto add = [&](const char* measure, const std::optional<double>& allowed, double found) {
+  const auto add = [&](const char* measure, const std::optional<double>& allowed, double Deviation::*what) {
     if (!allowed) return;
+    const double found = deviation ? (*deviation).*what : std::numeric_limits<double>::quiet_NaN();
+    if (!deviation) {
+      checks.push_back({measure, *allowed, found, ToleranceVerdict::unchecked});
+      return;
+    }
     const bool within = std::abs(found) <= *allowed;
     ToleranceVerdict verdict = within ? ToleranceVerdict::held : ToleranceVerdict::broken;
     // What is the mean or the last of a part says nothing of the whole.
@@ -76,9 +85,9 @@ std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& d
       verdict = ToleranceVerdict::cut_short;
     checks.push_back({measure, *allowed, found, verdict});
   };
-  add("largest", tolerance.largest, deviation.largest);
-  add("rms", tolerance.rms, deviation.rms);
-  add("final", tolerance.final, deviation.final);
+  add("largest", tolerance.largest, &Deviation::largest);
+  add("rms", tolerance.rms, &Deviation::rms);
+  add("final", tolerance.final, &Deviation::final);
   return checks;
 }
 

@@ -35,7 +35,8 @@ std::optional<double> deviation_at(const Series& series, std::size_t column, con
                                    std::size_t other_column, double time);
 
 /// Of a run that was cut short, or has a baseline that was, no limit is known to be held.
-enum class ToleranceVerdict { held, broken, cut_short };
+/// `unchecked`: there was nothing to compare with.
+enum class ToleranceVerdict { held, broken, cut_short, unchecked };
 
 const char* name_of(ToleranceVerdict verdict);  ///< in words
 
@@ -46,9 +47,9 @@ struct ToleranceCheck {
   ToleranceVerdict verdict;
 };
 
-/// One check for each limit that the tolerance states. A deviation that is no number breaks it; one of runs
-/// that were cut short can only be too large already.
-std::vector<ToleranceCheck> check(const Tolerance& tolerance, const Deviation& deviation,
+/// One check for each limit that the tolerance states, whether there is a deviation or not. A deviation that
+/// is no number breaks it; one of runs that were cut short can only be too large already.
+std::vector<ToleranceCheck> check(const Tolerance& tolerance, const std::optional<Deviation>& deviation,
                                   bool cut_short = false);
 
 }  // namespace talus

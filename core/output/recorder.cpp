@@ -1,5 +1,11 @@
 #include "output/recorder.hpp"
 
+#include "output/input_error.hpp"
+#include "output/whole_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace talus {
@@ -10,6 +16,17 @@ constexpr const char *history_name = "history.csv", *energy_name = "energy.csv";
 }  // namespace
 
 void refuse_other_files(const Simulation& simulation, const std::filesystem::path& folder) {
+  // A run that finishes takes its checkpoint away.
+  if (const std::filesystem::path file = folder / "run.json"; std::filesystem::exists(file)) {
+    const auto record = nlohmann::json::parse(read_whole_file(file), nullptr, false);
+    if (record.is_object() && record.value("end", nlohmann::json()) == "finished") {
+      throw InputError(
+          fmt::format("'{}' is of a run that finished: the checkpoint beside it is of another, and to go on "
+                      "from it would "
+                      "spoil the results; put it into a folder of its own",
+                      file.string()));
+    }
+  }
   HistoryWriter::refuse_other(folder / history_name, monitor_columns(simulation.scene()));
   HistoryWriter::refuse_other(folder / energy_name, energy_columns());
 }

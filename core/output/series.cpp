@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace talus {
@@ -115,6 +116,8 @@ Series read_series(const std::filesystem::path& file) {
 }
 
 Series read_series_text(std::string_view text, const std::string& name) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   Series series;
   bool header_read = false;
   Position position{name, 0};
@@ -133,6 +136,21 @@ Series read_series_text(std::string_view text, const std::string& name) {
     }
   }
   if (!header_read) fail(position, "there is no header line ('t [s],<monitor>.<quantity> [unit],...')");
+  return series;
+}
+
+Series read_reference_text(std::string_view text, const std::string& name) {
+  Series series = read_series_text(text, name);
+  if (series.time.empty()) throw InputError(fmt::format("{}: there are no rows below the header", name));
+  for (std::size_t column = 0; column < series.names.size(); ++column) {
+    for (std::size_t row = 0; row < series.time.size(); ++row) {
+      if (std::isfinite(series.values[column][row])) continue;
+      throw InputError(
+          fmt::format("{}: '{}' has no finite number at t = {:.9g} s: leave out the row, or give "
+                      "the column a file of its own",
+                      name, series.names[column], series.time[row]));
+    }
+  }
   return series;
 }
 

@@ -2,6 +2,7 @@
 
 #include "compare/deviation.hpp"
 #include "output/input_error.hpp"
+#include "simulation/simulation.hpp"
 #include "study/orders.hpp"
 
 #include <fmt/format.h>
@@ -139,13 +140,28 @@ std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findi
   return run + " (first of several that did the most work, and no better than they are: give a --reference)";
 }
 
+namespace {
+
+/// Whether one curve goes on for as long as another, as the error of all of that asks.
+bool covers(const Series& due, const Series& history) {
+  if (due.time.empty() || history.time.empty()) return false;
+  const double little = 1e-9 * std::abs(history.time.back());
+  return due.time.front() <= history.time.front() + little && due.time.back() >= history.time.back() - little;
+}
+
+}  // namespace
+
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
                        const std::optional<Series>& reference) {
   StudyFindings findings;
   findings.column = column;
   findings.runs.resize(runs.size());
   const std::optional<std::size_t> finest = most_work(runs);
-  if (!finest) throw InputError(words_of_nothing(plan, runs));
+  if (!finest) {
+    if (std::all_of(runs.begin(), runs.end(), [](const StudyRun& run) { return run.end == "refused"; }))
+      throw InputError(words_of_nothing(plan, runs));
+    throw NumericalTrouble(words_of_nothing(plan, runs));
+  }
   if (!reference) {
     findings.reference = finest;
     findings.reference_is_one_of_many = std::count_if(runs.begin(), runs.end(), [&](const StudyRun& run) {
@@ -168,6 +184,14 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     if (!finished(runs[i]) || findings.reference == i) continue;
     const auto own = runs[i].history.column(column);
     if (!own) continue;
+    if (!reference && !(covers(due, runs[i].history) && covers(runs[i].history, due))) continue;
+    if (!covers(due, runs[i].history)) {
+      throw InputError(fmt::format(
+          "the reference goes from {:.9g} to {:.9g} s and a run from {:.9g} to {:.9g} s: errors would be "
+          "those of a part; give it all of that time, or --set /time/end={:.9g}",
+          due.time.front(), due.time.back(), runs[i].history.time.front(), runs[i].history.time.back(),
+          due.time.back()));
+    }
     const auto found =
         deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
     if (!found || !std::isfinite(found->rms)) continue;

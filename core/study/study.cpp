@@ -1,6 +1,7 @@
 #include "study/study.hpp"
 
 #include "output/hash.hpp"
+#include "output/input_error.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
 #include "output/run_record.hpp"
@@ -45,6 +46,32 @@ bool same_libraries(const Json& record, const std::vector<Checkpoint::UsedLibrar
   return then == now;
 }
 
+/// Nothing where it is not all there: the run is made again.
+Series history_of(const std::filesystem::path& folder, double end) {
+  const std::filesystem::path file = folder / "history.csv";
+  if (!std::filesystem::exists(file)) return {};
+  try {
+    Series history = read_series(file);
+    if (!history.time.empty() && history.time.back() >= end * (1 - 1e-9)) return history;
+  } catch (const InputError&) {
+    return {};
+  }
+  return {};
+}
+
+/// Whether a folder holds a run of something else than is asked for.
+bool of_another_study(const std::filesystem::path& folder, const std::vector<Override>& overrides,
+                      const std::string& scene_hash) {
+  if (!std::filesystem::exists(folder / "run.json")) return false;
+  const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
+  if (!record.is_object()) return false;
+  const Json scene = record.value("scene", Json::object()),
+             settings = record.value("settings", Json::object());
+  if (!scene.is_object() || !scene.contains("xxh3_128") || !settings.is_object() || !settings.contains("set"))
+    return false;
+  return scene["xxh3_128"] != scene_hash || settings["set"] != set_of(overrides);
+}
+
 /// What the folder of a run tells, if it is the run that is asked for, with these libraries.
 StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
                 const std::string& scene_hash, const std::vector<Checkpoint::UsedLibrary>& libraries) {
@@ -59,7 +86,6 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
       settings.value("set", Json()) != set_of(overrides) || record.value("end", Json()) == "interrupted" ||
       !files_unchanged(scene) || !same_libraries(record, libraries))
     return run;
-  run.done = true;
   run.end = record["end"];
   run.trouble = record.value("trouble", "");
   run.dt = record["dt [s]"];
@@ -72,7 +98,9 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
       record["largest_residual_share"].is_number() ? record["largest_residual_share"].get<double>() : 1.0;
   run.penetration = record["largest_penetration [m]"];
   run.warnings = record.value("warnings", run.warnings);
-  run.history = read_series(folder / "history.csv");
+  // Of a run that was stopped the last rows may be from before the end.
+  run.history = history_of(folder, finished(run) ? record["t [s]"].get<double>() : 0);
+  run.done = !run.history.time.empty();
   return run;
 }
 
@@ -93,6 +121,7 @@ class Runs {
       : order_(order), runs_(order.plan.points.size()), problems_(order.plan.points.size()) {}
 
   std::vector<StudyRun> make() {
+    if (!order_.overwrite) refuse_other_runs();
     {
       std::vector<std::jthread> threads;
       for (int i = 0; i < std::max(1, order_.threads); ++i) threads.emplace_back([this] { work(); });
@@ -107,6 +136,23 @@ class Runs {
   }
 
  private:
+  std::vector<Override> overrides_of(std::size_t i) const {
+    std::vector<Override> overrides = order_.overrides;
+    for (const Override& change : order_.plan.overrides(order_.plan.points[i])) overrides.push_back(change);
+    return overrides;
+  }
+
+  void refuse_other_runs() const {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const std::filesystem::path folder = order_.folder / folder_name(i, 0);
+      if (of_another_study(folder, overrides_of(i), order_.scene_hash))
+        throw InputError(fmt::format(
+            "'{}' holds a run with other values or of another scene: give --overwrite to replace what it was "
+            "made for, or --out another folder",
+            folder.string()));
+    }
+  }
+
   bool interrupted() const { return order_.interrupted != nullptr && *order_.interrupted; }
 
   /// All runs once, then all once more: what disturbs the machine for a while disturbs one time of each.
@@ -137,9 +183,7 @@ class Runs {
   StudyRun run_of(std::size_t i, int time) {
     RunOrder run;
     run.folder = order_.folder / folder_name(i, time);
-    run.overrides = order_.overrides;
-    for (const Override& change : order_.plan.overrides(order_.plan.points[i]))
-      run.overrides.push_back(change);
+    run.overrides = overrides_of(i);
     run.scene_hash = order_.scene_hash;
     run.clock = CpuClock::thread;
     run.interrupted = order_.interrupted;

@@ -39,8 +39,9 @@ struct StudyOrder {
   StudyPlan plan;
   std::vector<Override> overrides;  ///< common to all runs
   std::string scene_hash;
-  int threads = 1;  ///< runs at a time, one thread each
-  int times = 1;    ///< that each run is made, all of them in turn, for the median of their cost
+  int threads = 1;         ///< runs at a time, one thread each
+  bool overwrite = false;  ///< other runs that the folder holds
+  int times = 1;           ///< that each run is made, all of them in turn, for the median of their cost
   /// Reads the scene with overrides; throws SceneError. Never called twice at a time.
   std::function<HeldScene(const std::vector<Override>&)> read;
   const std::atomic<bool>* interrupted = nullptr;
@@ -48,7 +49,8 @@ struct StudyOrder {
 };
 
 /// Makes all runs, each in a folder of its own; those that the folder holds already, of the same scene and
-/// libraries with the same values, are taken as they are. In the order of the plan.
+/// libraries with the same values, are taken as they are; of others InputError, unless they may be
+/// overwritten. In the order of the plan.
 std::vector<StudyRun> make_runs(const StudyOrder& order);
 
 bool finished(const StudyRun& run);

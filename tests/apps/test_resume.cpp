@@ -183,6 +183,9 @@ TEST_CASE("resume spoils no results of another run", "[apps][resume]") {
     CHECK(held(folder) == before);
     return call.err;
   };
+  CHECK_THAT(refused("other"), Contains("run.json' is of a run that finished"));
+  std::filesystem::remove(scratch / "other/checkpoint.talus");
+  std::filesystem::remove(scratch / "other/run.json");
   CHECK_THAT(refused("other"), Contains("history.csv' is not what the run left"));
   std::filesystem::create_directory(scratch / "empty");
   CHECK_THAT(refused("empty"), Contains("history.csv' is not what the run left"));

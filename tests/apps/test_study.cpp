@@ -108,12 +108,28 @@ TEST_CASE("A study refuses what it cannot measure", "[apps][study]") {
   CHECK(call.code == 2);
   CHECK_THAT(call.err, Contains("block.speed [m/s]"));
   CHECK(call_talus(scratch.folder(), {"study", "missing.json", "--vary", "/time/dt=1e-4"}).code == 5);
+  CHECK_THAT(call_talus(scratch.folder(),
+                        {"study", "small.json", "--vary", "/time/dt=1e-4", "--vary", "/time/dt=2e-4"})
+                 .err,
+             Contains("is given twice"));
   const std::vector<std::string> words{"study", "small.json", "--vary", "/time/dt=1e-4", "--out", "other"};
   std::filesystem::create_directory(scratch / "other");
   {
     const FolderLock theirs(scratch / "other");
     CHECK_THAT(call_talus(scratch.folder(), words).err, Contains("another talus"));
   }
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  std::vector<std::string> others = words;
+  others[3] = "/time/dt=2e-4";
+  const Call refused = call_talus(scratch.folder(), others);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("run_0001' holds a run with other values"));
+  std::string history = read_whole_file(scratch / "other/run_0001/history.csv");
+  write_whole_file(scratch / "other/run_0001/history.csv", history.substr(0, history.size() / 2));
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  CHECK(read_whole_file(scratch / "other/run_0001/history.csv") == history);
+  others.emplace_back("--overwrite");
+  CHECK(call_talus(scratch.folder(), others).code == 0);
   scratch.write("other/run.json", "{}");
   CHECK_THAT(call_talus(scratch.folder(), words).err, Contains("results of a single run ('run.json')"));
 }

@@ -164,7 +164,9 @@ TEST_CASE("a tolerance is held by curves that go to the end alone", "[compare][r
   CHECK(verdict() == ToleranceVerdict::held);
   order.scenes[0].tolerances[0].against_reference = true;
   evaluate(order, comparison);
-  CHECK(comparison.tolerances.back().checks.empty());
+  CHECK(comparison.tolerances.back().checks.back().verdict == ToleranceVerdict::unchecked);
+  CHECK_FALSE(comparison.tolerances_held());
+  CHECK_THAT(comparison_table(order, comparison), Catch::Contains("not checked"));
   order.scenes[0].tolerances[0].against_reference = false;
   comparison.runs[0].result.history.time = {0, 0.5, 1};
   CHECK(verdict() == ToleranceVerdict::cut_short);

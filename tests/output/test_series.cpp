@@ -45,3 +45,11 @@ TEST_CASE("interpolation is linear and stays within the rows", "[output][series]
   CHECK_FALSE(interpolate(times, values, -1e-12));
   CHECK_FALSE(interpolate({}, {}, 0));
 }
+
+TEST_CASE("a curve to hold runs against has a number in every row", "[output][series]") {
+  CHECK(read_reference_text("\xEF\xBB\xBFt [s],a [m]\n0,1\n1,2\n", "excel.csv").time.size() == 2);
+  CHECK_THROWS_WITH(read_reference_text("t [s],a [m]\n0,1\n1,\n", "gap.csv"),
+                    Catch::Contains("gap.csv: 'a [m]' has no finite number at t = 1 s"));
+  CHECK_THROWS_WITH(read_reference_text("t [s],a [m]\n0,nan\n", "nan.csv"), Catch::Contains("at t = 0 s"));
+  CHECK_THROWS_WITH(read_reference_text("t [s],a [m]\n", "head.csv"), Catch::Contains("no rows"));
+}

@@ -2,6 +2,7 @@
 #include "study/orders.hpp"
 
 #include "output/input_error.hpp"
+#include "simulation/simulation.hpp"
 #include "study/sample_runs.hpp"
 #include "study/study_charts.hpp"
 #include "study/study_text.hpp"
@@ -147,5 +148,20 @@ TEST_CASE("A study can be measured against a curve, and says where it cannot", "
   CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
                     Contains("is 0 all along in the reference"));
   for (StudyRun& each : runs) each.end = "stopped";
+  CHECK_THROWS_AS(find_out(sample_steps(), runs, sample_column, std::nullopt), NumericalTrouble);
+  for (StudyRun& each : runs) each.end = "refused";
   CHECK_THROWS_AS(find_out(sample_steps(), runs, sample_column, std::nullopt), InputError);
+}
+
+TEST_CASE("A study measures no run against a curve that ends before it does", "[study]") {
+  std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40)};
+  Series reference = run_of(0, 0, 0).history;
+  reference.time.pop_back();
+  reference.values[0].pop_back();
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
+                    Contains("errors would be those of a part"));
+  runs[0].history = reference;
+  const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
+  CHECK_FALSE(findings.runs[0].error);
+  CHECK(findings.runs[1].error);
 }
