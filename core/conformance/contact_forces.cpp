@@ -185,6 +185,14 @@ void check_tension(const Subject& subject, Trial& trial) {
     const Vec2 still = law.look().on(1);
     const double square = dot(still, still), size = std::sqrt(square);
     if (size == 0) return;  // a law need not see every overlap
+    const auto centre = [&](std::size_t body) {
+      const HeldBody& at = law.bodies[body];
+      return Vec2{at.centre.x + at.motion.u.x, at.centre.y + at.motion.u.y};
+    };
+    const Vec2 from = centre(0), to = centre(1), apart{to.x - from.x, to.y - from.y};
+    trial.feed(fed + ", at rest");
+    trial.at_most(-dot(still, apart) / std::sqrt(dot(apart, apart)), 1e-12 * size,
+                  "pull on body 1 [N/m] towards body 0");
     for (const double speed : {0.1, 3.0, 1e3}) {
       trial.feed(fmt::format("{}, parting at {:g} m/s", fed, speed));
       law.bodies[1].motion.velocity = {speed * still.x / size, speed * still.y / size};
