@@ -26,7 +26,7 @@ namespace {
 namespace po = boost::program_options;
 
 std::string name_of_column(const std::string& column) {
-  return column.substr(0, column.find(" ["));
+  return column.substr(0, column.rfind(" ["));
 }
 
 /// The first speed of a body that moves; or of that the first of all; or the first there is.

@@ -50,7 +50,7 @@ struct Column {
 };
 
 Column column_of(const std::string& name) {
-  const std::size_t dot = name.find('.'), open = name.find(" [");
+  const std::size_t open = name.rfind(" ["), dot = name.rfind('.', open);
   if (dot == std::string::npos || open == std::string::npos) return {"", name, ""};
   return {name.substr(0, dot), name.substr(dot + 1, open - dot - 1),
           name.substr(open + 2, name.size() - open - 3)};
@@ -125,7 +125,7 @@ void draw_energies(const Results& run, Figures& figures) {
   const Series series = read_series(run.folder / "energy.csv");
   std::vector<Curve> curves;
   for (std::size_t i = 0; i < series.names.size(); ++i) {
-    const std::string name = series.names[i].substr(0, series.names[i].find(" ["));
+    const std::string name = series.names[i].substr(0, series.names[i].rfind(" ["));
     const std::vector<double>& values = series.values[i];
     if (name == "throughput" || std::all_of(values.begin(), values.end(), [](double v) { return v == 0; }))
       continue;

@@ -240,6 +240,14 @@ class Finder : public Walk {
 }  // namespace
 
 ParsedText parse_json(const std::string& text, const std::string& file) {
+  // The parser takes it for the end of the text.
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
+    const Place place = place_of(text, zero);
+    ParsedText refused;
+    refused.mistakes.push_back({file, place.line, place.column, "",
+                                "a byte of 0 stands here: a scene is text in UTF-8; is this UTF-16?"});
+    return refused;
+  }
   return Builder(text, file).build();
 }
 

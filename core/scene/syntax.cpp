@@ -129,6 +129,8 @@ SyntaxError explain_syntax_error(const std::string& text, std::size_t byte, cons
                         "false, null, [lists] and {{objects}}",
                         found)};
   }
+  if (words.find("missing closing '*/'") != std::string::npos)
+    return {text.rfind("/*", at), "the comment is not closed by */"};
   if (words.find("U+000A") != std::string::npos) return {at, "the text is not closed by a quote on its line"};
   std::string_view reason = between(words, " - ");
   if (reason.empty()) reason = words;

@@ -1,4 +1,5 @@
 #include "scene/bad_scene.hpp"
+#include "scene/positions.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -34,6 +35,13 @@ const BadScene bad_texts[] = {
      14,
      86,
      {"not closed by a quote"}},
+    {"a comment that does not end is named",
+     "\"end\": 5}\n}",
+     "\"end\": 5} /* and so on\n}\n",
+     "",
+     18,
+     22,
+     {"the comment is not closed by */"}},
     {"a file that ends too early is named",
      "\"end\": 5}\n}",
      "\"end\": 5",
@@ -129,4 +137,12 @@ TEST_CASE("columns count characters and lines, not bytes", "[scene]") {
 TEST_CASE("a file that cannot be read is no mistake of the scene", "[scene]") {
   Registry registry = sample::registry();
   CHECK_THROWS_AS(read_scene("no/such/scene.json", registry), std::system_error);
+}
+
+TEST_CASE("a byte of 0 is no end of a scene", "[scene]") {
+  const ParsedText parsed = parse_json(std::string("{\"talus\": 1}") + '\0' + " garbage {{{", "s.json");
+  CHECK_FALSE(parsed.complete);
+  REQUIRE(parsed.mistakes.size() == 1);
+  CHECK(parsed.mistakes[0].column == 13);
+  CHECK_THAT(parsed.mistakes[0].text(), Catch::Contains("a byte of 0") && Catch::Contains("UTF-16"));
 }
