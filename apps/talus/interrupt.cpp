@@ -25,6 +25,8 @@ const std::atomic<bool>* watch_for_interrupts() {
     sigaction(signal, nullptr, &before);
     if (signal != SIGHUP || before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup
   }
+  // Who reads the log of a run may go away before it ends: what is written to files does not depend on that.
+  std::signal(SIGPIPE, SIG_IGN);
   return &interrupted;
 }
 

@@ -120,3 +120,11 @@ TEST_CASE("installed documents find all they refer to", "[apps][shell]") {
   }
   CHECK(links > 50);
 }
+
+TEST_CASE("a run outlives who reads its log", "[apps][shell][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  call_program("/bin/bash", scratch.folder(),
+               {"--norc", "-c", "'" TALUS_PROGRAM "' run small.json --out piped 2>&1 | head -n 1"});
+  CHECK(json_of(scratch / "piped/run.json")["end"] == "finished");
+}
