@@ -203,12 +203,17 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
   return size;
 }
 
-/// A side as short as rounding would have any direction: its ends become one.
+/// A side as short as rounding would have any direction: its ends become one, that of the side itself where
+/// it is one of them.
 void join_coincident(Corners& corners, std::size_t count, double depth) {
-  for (std::size_t i = 3; i < count; ++i) {
-    const Vec2 apart = minus(corners[i], corners[i - 1]);
-    if (dot(apart, apart) < 1e-18 * depth * depth) corners[i] = corners[i - 1];
+  const auto coincide = [&](std::size_t i, std::size_t j) {
+    const Vec2 apart = minus(corners[i], corners[j]);
+    return dot(apart, apart) < 1e-18 * depth * depth;
+  };
+  for (std::size_t i = 2; i < count; ++i) {
+    if (coincide(i, i - 1)) corners[i] = corners[i - 1];
   }
+  for (std::size_t i = count; i-- > 2 && coincide(i, 0);) corners[i] = corners[0];
 }
 
 }  // namespace

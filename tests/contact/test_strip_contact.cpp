@@ -1,5 +1,6 @@
 #include "contact/contact_stage.hpp"
 #include "parallel/alone.hpp"
+#include "simulation/simulation.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -145,6 +146,24 @@ TEST_CASE("an energy that passes over joints of either boundary has no jump", "[
   const double due = pressed.at(-0.01, 0).stored;
   for (int i = 0; i <= 1000; ++i)
     CHECK(pressed.at(-0.01, -0.2 + 4e-4 * i + 1e-9).stored == Approx(due).epsilon(1e-9));
+}
+
+TEST_CASE("a tip whose bisector hardly turns loses none of its strips", "[contact][strips]") {
+  const std::string lattice =
+      R"("cover": {"model": "hexagonal", "size": 0.2, "offset_x": 0.013, "offset_y": 0.037, "angle": 7})";
+  WorkingScene text = corner_on_flat(block, block, "frictionless");
+  text.interface = R"("normal_stiffness": 1e10, "normal_damping": 0)";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e11, "poisson_ratio": 0.25)";
+  text.bodies = R"({"name": "a", "material": "rock", "velocity": [0.5, 1e-5], "polygon":
+                    [[-0.7091067811865475, -0.7071067811865475], [-0.002, 0],
+                     [-0.7091067811865475, 0.7071067811865475], [-1.416213562373095, 1.1102230246251565e-16]], )" +
+                lattice + "}, " + box("b", 0, -0.5, 1, 0.5, lattice);
+  text.time = R"({"end": 0.025, "dt": 8e-6})";
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.summary().largest_residual_share < 1e-4);
 }
 
 TEST_CASE("between searches strips are shaped where a pair lists them, and nowhere else",
