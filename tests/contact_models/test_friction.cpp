@@ -232,3 +232,31 @@ TEST_CASE("Normal dashpots of a corner: the stated share of critical on its chor
     }
   }
 }
+
+TEST_CASE("Friction is at most what springs and dashpots press together, on a ridge that a slab rocks on",
+          "[laws]") {
+  const HeldBody ridge = held({{-1, -1}, {1, -1}, {0, 0}});
+  for (const double master_share : {0.5, 1.0}) {
+    for (const bool plain : {true, false}) {
+      for (const double lean : {-0.3, 0.0, 0.2}) {
+        for (const double spin : {-8.0, -1.0, 0.0, 2.0, 20.0}) {
+          for (const double rise : {-1.0, 0.0, 0.1, 0.2, 0.3, 1.0}) {
+            INFO("share " << master_share << (plain ? ", plain" : "") << ", lean " << lean << ", " << spin
+                          << " 1/s, " << rise << " m/s");
+            LawBench bench("overlap_area", with(lively_interface(), {{"normal_damping", 1}}));
+            bench.bodies = {ridge, held({{-1, -lean - 5e-3}, {1, lean - 5e-3}, {1, 1}, {-1, 1}})};
+            bench.master_share = master_share;
+            bench.plain = plain;
+            bench.step();
+            bench.bodies[1].motion.velocity = {3, rise};
+            bench.bodies[1].motion.rate = {0, -spin, spin, 0};
+            bench.bodies[1].motion.spin = spin;
+            for (const ContactReport& contact : bench.look(1e-3).contacts)
+              CHECK(std::hypot(contact.tx, contact.ty) <=
+                    mu * std::hypot(contact.px, contact.py) * (1 + 1e-9) + 1e-6);
+          }
+        }
+      }
+    }
+  }
+}

@@ -77,6 +77,7 @@ Resultant across_crack(const Simulation& simulation) {
     const double up = contact.normal_force.y > 0 ? 1 : -1;
     sum.normal += up * contact.normal_force.y;
     sum.tangential += up * contact.tangential_force.x;
+    if (contact.normal_force.y == 0) continue;  // what bears nothing neither sticks nor slips
     ++sum.contacts;
     sum.slipping += contact.slipping ? 1 : 0;
   }

@@ -106,6 +106,7 @@ class DistributedContact {
       find_tangent();
       measure_arcs(g, batch.dt);
       normal_damping(sink, pair, batch.dt, report);
+      share_pressure();
       Point tangential{0, 0};
       double slip = 0;
       if constexpr (Law::frictional) {
@@ -389,6 +390,15 @@ class DistributedContact {
     }
   }
 
+  /// By their sum the cells press no more than springs and dashpots do together: single ones that come out
+  /// negative count nothing.
+  void share_pressure() {
+    double sum = 0;
+    for (const Cell& cell : cells_) sum += cell.pressed;
+    const double pressed = std::max(0.0, dot(normal_on_b_, normal_of_contact()));
+    for (Cell& cell : cells_) cell.pressed *= sum > 0 ? pressed / sum : 0;
+  }
+
   /// The direction in which the springs of an overlap push the slave.
   Point normal_of_overlap(const Cell& cell) const {
     const Point on_b = pressing_[static_cast<std::size_t>(cell.overlap - finder_.overlaps().data())];
@@ -396,7 +406,7 @@ class DistributedContact {
     return size > 0 ? on_slave(cell, (1 / size) * on_b) : cell.normal;
   }
 
-  /// Eqs. 37–44. Tangential loads act on both bodies at one common point of each cell, shared by μ_k P_k.
+  /// Eqs. 37–44. Tangential loads act on both bodies at one common point of each cell, shared by μ_k N_k.
   Point friction(const Law& law, const ContactBatch& batch, const LoadSink& sink, const BodyPair& pair,
                  FrictionHistory& history, PairReport& report) {
     double load = 0, limit = 0, stiffness = 0, damping = 0;

@@ -49,6 +49,7 @@ class LaneLoads {
     }
     find_tangent();
     Report report;
+    report.pressed = spring_force_;
     report.stored = roles_ == 2 ? cells_[0].stored + cells_[1].stored : cells_[0].stored;
     report.penetration =
         roles_ == 2 ? simd::max(cells_[0].penetration, cells_[1].penetration) : cells_[0].penetration;
@@ -97,7 +98,7 @@ class LaneLoads {
     Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
     Packs2 foot;            ///< m, where it acts
     Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
-    Pack dashpots = 0.0;    ///< N/m along the normal, on piece 1
+    Pack pressed;           ///< N/m, springs and dashpots along the normal: what friction goes by
   };
 
   /// How piece 1 moves against piece 0: the velocity, m/s, where corner 0 of that is, and how it changes,
@@ -146,7 +147,7 @@ class LaneLoads {
     });
     report.damping_power = dashpots.power * dt;
     report.damping_force = dashpots.size;
-    report.dashpots = dashpots.force;
+    report.pressed = simd::max(0.0, spring_force_ + dashpots.force);
     return {dashpots.force * normal, normal.x * dashpots.moment, normal.y * dashpots.moment};
   }
 
@@ -264,8 +265,8 @@ class LaneLoads {
   /// it at the foot of all.
   void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const Sliding& sliding,
                 const ContactBatch& batch, Between& between, Report& report) {
-    const Pack load = load_of_all();
-    const Packs2 foot = foot_of_all(load);
+    const Packs2 foot = foot_of_all(load_of_all());
+    const Pack load = report.pressed;
     const Pack slip = simd::dot(tangent_, sliding.at(foot));
     const Pack increment = slip * batch.dt;
 
@@ -368,9 +369,7 @@ class LaneLoads {
 
   void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
                       LaneBits wanted) const {
-    const Pack load = load_of_all();
-    const Packs2 normal = simd::max(0.0, spring_force_ + report.dashpots) * normal_of_contact(),
-                 foot = foot_of_all(load);
+    const Packs2 normal = report.pressed * normal_of_contact(), foot = foot_of_all(load_of_all());
     const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
     alignas(64) double value[8][lanes];
     simd::store(foot.x, value[0]);
