@@ -6,6 +6,7 @@
 #include "interrupt.hpp"
 #include "output/folder_lock.hpp"
 #include "output/hash.hpp"
+#include "output/history.hpp"
 #include "output/input_error.hpp"
 #include "output/output_folder.hpp"
 #include "output/whole_file.hpp"
@@ -123,18 +124,21 @@ int compare_command(const Words& words) {
   std::deque<Registry> registries;
   const std::set<std::string> told = read_scenes(usage, *given, file, registries, order, log);
   order.scene_hash = hash_of_file(file);
+  std::vector<std::filesystem::path> read{file};
   if (const std::string named = text_option(*given, "reference"); !named.empty()) {
     const std::filesystem::path reference = here_or_shipped(named);
+    read.push_back(reference);
     const std::string text = read_whole_file(reference);
-    order.reference = ReferenceFile{reference.string(), hash_of_file(reference),
-                                    read_reference_text(text, reference.string()), text};
+    order.reference =
+        ReferenceFile{reference.string(), hash_of_file(reference),
+                      read_reference_text(text, reference.string(), monitor_columns(order.scenes[0])), text};
   }
   check_order(order);
   const bool overwrite = given->count("overwrite") != 0;
-  prepare_output_folder(order.folder, overwrite, {file});
+  prepare_output_folder(order.folder, overwrite, read);
   const FolderLock mine(order.folder);
   for (const std::string& value : order.variation.values) {
-    prepare_output_folder(order.folder / folder_of_value(value), overwrite);
+    prepare_output_folder(order.folder / folder_of_value(value), overwrite, read);
   }
 
   order.interrupted = watch_for_interrupts();

@@ -22,7 +22,9 @@ constexpr std::array codes{
     Explained{"4", "numerical trouble stopped a run"},
     Explained{"5", "a file could not be read or written"},
     Explained{"6",
-              "a tolerance that the scene states was broken or not checked; advise: no run kept the error"},
+              "a tolerance that the scene states was broken, or had nothing to be held against; advise: no "
+              "run kept "
+              "the error"},
     Explained{"130",
               "interrupted or out of wall time; what was done so far is written, `talus resume` goes on"},
 };

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <utility>
 
@@ -119,6 +120,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   order.folder = study.folder;
   order.plan = plan;
   order.overwrite = given.count("overwrite") != 0;
+  order.read_files = {file, text_option(given, "reference")};
   order.overrides = overrides_of(usage, given);
   order.scene_hash = hash_of_file(file);
   order.threads =
@@ -137,7 +139,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   const std::string column = column_of(usage, given, plain.scene);
   std::optional<Series> reference;
   if (const std::string name = text_option(given, "reference"); !name.empty())
-    reference = read_reference_text(read_whole_file(name), name);
+    reference = read_reference_text(read_whole_file(name), name, std::array{column});
   prepare_folder_of_runs(study.folder);
   const FolderLock mine(study.folder);
 
@@ -152,6 +154,9 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   study.interrupted = *order.interrupted;
   if (study.interrupted) return study;
   study.findings = find_out(plan, study.runs, column, reference);
+  if (!study.findings.part.empty())
+    print_warning(fmt::format("the reference goes {} and runs do not: errors are those of the time in common",
+                              study.findings.part));
   write_whole_file(study.folder / "study.csv", study_csv(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.json", study_json(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.svg", study_svg(plan, study.runs, study.findings));

@@ -40,8 +40,10 @@ Json libraries_json(const Scene& scene) {
                     {"author", text_of(used.library->author)},
                     {"components", used.components},
                     {"file", used.file.filename().string()},
-                    {"path", used.opened.string()},
-                    {"xxh3_128", hash_of_file(used.opened)}});
+                    {"path", used.file.string()},
+                    {"xxh3_128", hash_of_file(used.file)},
+                    {"opened", used.opened.string()},
+                    {"opened_xxh3_128", hash_of_file(used.opened)}});
   }
   return list;
 }

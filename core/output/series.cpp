@@ -139,10 +139,12 @@ Series read_series_text(std::string_view text, const std::string& name) {
   return series;
 }
 
-Series read_reference_text(std::string_view text, const std::string& name) {
+Series read_reference_text(std::string_view text, const std::string& name,
+                           std::span<const std::string> columns) {
   Series series = read_series_text(text, name);
   if (series.time.empty()) throw InputError(fmt::format("{}: there are no rows below the header", name));
   for (std::size_t column = 0; column < series.names.size(); ++column) {
+    if (std::find(columns.begin(), columns.end(), series.names[column]) == columns.end()) continue;
     for (std::size_t row = 0; row < series.time.size(); ++row) {
       if (std::isfinite(series.values[column][row])) continue;
       throw InputError(

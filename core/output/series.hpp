@@ -26,9 +26,10 @@ std::string csv_line(std::span<const std::string> fields);
 Series read_series(const std::filesystem::path& file);
 Series read_series_text(std::string_view text, const std::string& name);
 
-/// The same of a curve that runs are held against: InputError also where it has no rows, or a field that is
-/// no number.
-Series read_reference_text(std::string_view text, const std::string& name);
+/// The same of a curve that runs are held against: InputError also where it has no rows, or a field of one of
+/// these columns is no number.
+Series read_reference_text(std::string_view text, const std::string& name,
+                           std::span<const std::string> columns);
 
 /// Linear between the rows around `time`; nothing outside of their range.
 std::optional<double> interpolate(std::span<const double> times, std::span<const double> values, double time);

@@ -42,6 +42,7 @@ struct StudyFindings {
   std::vector<ObservedOrder> orders;
   /// What the reference run itself misses by these orders, as a share like `error`, which it comes on top of.
   std::optional<double> error_of_reference;
+  std::string part;  ///< where a reference file does not go on for as long as the runs: from when to when
 };
 
 /// What the errors are measured against, in words.

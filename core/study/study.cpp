@@ -38,12 +38,27 @@ bool files_unchanged(const Json& scene) {
   return true;
 }
 
+struct StudyLibrary {
+  std::string hash, opened, opened_hash;
+};
+
+std::vector<StudyLibrary> libraries_of(const Scene& scene) {
+  std::vector<StudyLibrary> libraries;
+  for (const UsedLibrary& used : used_libraries(scene))
+    libraries.push_back({hash_of_file(used.file), used.opened.string(), hash_of_file(used.opened)});
+  return libraries;
+}
+
 /// Whether a run took the libraries that its scene would take now.
-bool same_libraries(const Json& record, const std::vector<Checkpoint::UsedLibrary>& libraries) {
-  std::vector<std::string> then, now;
-  for (const Json& library : record.value("plugins", Json::array())) then.push_back(library["xxh3_128"]);
-  for (const Checkpoint::UsedLibrary& library : libraries) now.push_back(library.hash);
-  return then == now;
+/// For another instruction set, which changes no bit, others are opened.
+bool same_libraries(const Json& record, const std::vector<StudyLibrary>& libraries) {
+  const Json then = record.value("plugins", Json::array());
+  return std::equal(then.begin(), then.end(), libraries.begin(), libraries.end(),
+                    [](const Json& library, const StudyLibrary& now) {
+                      return library.value("xxh3_128", Json()) == now.hash &&
+                             (library.value("opened", Json()) != now.opened ||
+                              library.value("opened_xxh3_128", Json()) == now.opened_hash);
+                    });
 }
 
 /// Nothing where it is not all there: the run is made again.
@@ -74,7 +89,7 @@ bool of_another_study(const std::filesystem::path& folder, const std::vector<Ove
 
 /// What the folder of a run tells, if it is the run that is asked for, with these libraries.
 StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                const std::string& scene_hash, const std::vector<Checkpoint::UsedLibrary>& libraries) {
+                const std::string& scene_hash, const std::vector<StudyLibrary>& libraries) {
   StudyRun run;
   run.folder = folder;
   if (!std::filesystem::exists(folder / "run.json")) return run;
@@ -100,7 +115,7 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
   run.warnings = record.value("warnings", run.warnings);
   // Of a run that was stopped the last rows may be from before the end.
   run.history = history_of(folder, finished(run) ? record["t [s]"].get<double>() : 0);
-  run.done = !run.history.time.empty();
+  run.done = !finished(run) || !run.history.time.empty();
   return run;
 }
 
@@ -189,10 +204,10 @@ class Runs {
     run.interrupted = order_.interrupted;
     try {
       const HeldScene held = read(run.overrides);
-      const std::vector<Checkpoint::UsedLibrary> libraries = hashed_libraries(held.scene);
+      const std::vector<StudyLibrary> libraries = libraries_of(held.scene);
       const auto made = [&] { return run_in(run.folder, run.overrides, run.scene_hash, libraries); };
       if (StudyRun before = made(); before.done) return before;
-      prepare_output_folder(run.folder, true);
+      prepare_output_folder(run.folder, true, order_.read_files);
       Simulation simulation(held.scene, run.settings);
       record_run(simulation, run);
       return made();
