@@ -2,6 +2,8 @@
 
 #include <talus/overlap/grouping.hpp>
 
+#include <span>
+
 namespace talus::overlap {
 
 /// What the distributed law reads of an interface.
@@ -60,5 +62,37 @@ struct Balance {
   }
   double moment_about(Point point) const { return moment - cross(point - origin, force); }
 };
+
+/// A side of the slave that bounds the overlap, for a cell that no slave boundary enters.
+inline std::uint32_t any_real_side(const Overlap& overlap, const Piece& slave) {
+  const std::uint32_t slave_body = &slave == &overlap.piece[0] ? 0 : 1;
+  for (const Corner& corner : overlap.polygon) {
+    if (corner.side.body == slave_body && slave.real(corner.side.index)) return corner.side.index;
+  }
+  std::uint32_t side = 0;
+  while (side + 1 < slave.size() && !slave.real(side)) ++side;
+  return side;
+}
+
+/// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load along
+/// the normal of the cell, so that nothing jumps when a slave corner passes a division line.
+template <class Law>
+InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, const Overlap& overlap,
+                                 const Piece& master, const Piece& slave, std::uint32_t side,
+                                 std::span<const Segment> segments) {
+  const auto parameters_with = [&](std::uint32_t slave_side) {
+    const std::uint32_t row =
+        interfaces.row[master.surface(side) * interfaces.surface_count + slave.surface(slave_side)];
+    return law.interface(interfaces.value + row * interfaces.parameter_count);
+  };
+  if (segments.size() == 1) return parameters_with(segments[0].side);
+  double total = 0;
+  for (const Segment& segment : segments) total += segment.facing_share();
+  if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
+  InterfaceParameters mean;
+  for (const Segment& segment : segments)
+    mean.add(segment.facing_share() / total, parameters_with(segment.side));
+  return mean;
+}
 
 }  // namespace talus::overlap

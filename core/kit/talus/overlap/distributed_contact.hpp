@@ -157,8 +157,8 @@ class DistributedContact {
         if (!(region.area > 0)) return;
         const auto first_segment = static_cast<std::uint32_t>(segments_.size());
         find_segments(master, slave, side, 1 - master_body, cell);
-        InterfaceParameters parameters =
-            interface_of(law, interfaces, overlap, master, slave, side, first_segment);
+        InterfaceParameters parameters = interface_of(law, interfaces, overlap, master, slave, side,
+                                                      std::span(segments_).subspan(first_segment));
         const Point normal = master.normal(side);
         double load = 0;
         Point foot{0, 0};
@@ -219,51 +219,6 @@ class DistributedContact {
       segment.length = length(end - cell[i].at);
       segment.facing = std::max(0.0, -dot(slave.normal(segment.side), master.normal(side)));
       segments_.push_back(segment);
-    }
-  }
-
-  /// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load along
-  /// the normal of the cell, so that nothing jumps when a slave corner passes a division line.
-  InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, const Overlap& overlap,
-                                   const Piece& master, const Piece& slave, std::uint32_t side,
-                                   std::uint32_t first_segment) const {
-    const auto parameters_with = [&](std::uint32_t slave_side) {
-      const std::uint32_t row =
-          interfaces.row[master.surface(side) * interfaces.surface_count + slave.surface(slave_side)];
-      return law.interface(interfaces.value + row * interfaces.parameter_count);
-    };
-    if (segments_.size() == first_segment + 1) return parameters_with(segments_[first_segment].side);
-    double total = 0;
-    for (std::size_t s = first_segment; s < segments_.size(); ++s) total += segments_[s].facing_share();
-    if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
-    InterfaceParameters mean;
-    for (std::size_t s = first_segment; s < segments_.size(); ++s)
-      mean.add(segments_[s].facing_share() / total, parameters_with(segments_[s].side));
-    return mean;
-  }
-
-  /// A side of the slave that bounds the overlap, for a cell that no slave boundary enters.
-  static std::uint32_t any_real_side(const Overlap& overlap, const Piece& slave) {
-    const std::uint32_t slave_body = &slave == &overlap.piece[0] ? 0 : 1;
-    for (const Corner& corner : overlap.polygon) {
-      if (corner.side.body == slave_body && slave.real(corner.side.index)) return corner.side.index;
-    }
-    std::uint32_t side = 0;
-    while (side + 1 < slave.size() && !slave.real(side)) ++side;
-    return side;
-  }
-
-  /// Eqs. 30–32 (with the factor 3 that Eq. 31 misses), as end loads: l/6 (2p₁+p₂) and l/6 (p₁+2p₂).
-  static void find_slave_loads(const Law& law, const InterfaceParameters& parameters, double share,
-                               Segment& segment) {
-    if constexpr (HasOwnPressure<Law>) {
-      integrate(law, parameters, segment, segment.load);
-      for (double& load : segment.load) load *= share;
-    } else {
-      const double stiffness = share * parameters.normal_stiffness;
-      for (int end = 0; end < 2; ++end)
-        segment.load[end] =
-            stiffness * segment.length * (2 * segment.depth[end] + segment.depth[1 - end]) / 6;
     }
   }
 

@@ -73,4 +73,17 @@ void integrate(const Law& law, const InterfaceParameters& interface, const Segme
   }
 }
 
+/// Eqs. 30–32 (with the factor 3 that Eq. 31 misses), as end loads: l/6 (2p₁+p₂) and l/6 (p₁+2p₂).
+template <class Law>
+void find_slave_loads(const Law& law, const InterfaceParameters& parameters, double share, Segment& segment) {
+  if constexpr (HasOwnPressure<Law>) {
+    integrate(law, parameters, segment, segment.load);
+    for (double& load : segment.load) load *= share;
+  } else {
+    const double stiffness = share * parameters.normal_stiffness;
+    for (int end = 0; end < 2; ++end)
+      segment.load[end] = stiffness * segment.length * (2 * segment.depth[end] + segment.depth[1 - end]) / 6;
+  }
+}
+
 }  // namespace talus::overlap
