@@ -26,7 +26,8 @@ bool wants_all_sums(const StepConditions& c) {
 }
 
 Deformation::Energy sum_of(const Deformation::Energy& p, const Deformation::Energy& q) {
-  return {p.stored + q.stored, p.dissipated + q.dissipated, p.inside_out || q.inside_out};
+  return {p.stored + q.stored, p.dissipated + q.dissipated, p.viscous + q.viscous,
+          p.inside_out || q.inside_out};
 }
 
 }  // namespace
@@ -164,7 +165,10 @@ void Deformation::sweep(const Model& model, const SweepStep& given, MotionState&
 Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {
   Energy total;
   for (std::size_t s = 0; s < model.partition.subdomains.size(); ++s) {
-    total = sum_of(total, {sums_[s].stored, sums_[s].dissipated, sums_[s].inside_out});
+    const SweepSums& sums = sums_[s];
+    const std::uint32_t element = model.first_element(model.bodies[subdomain_body_[s]]);
+    const bool viscous = materials_.viscous(materials_.batch_of(element));
+    total = sum_of(total, {sums.stored, sums.dissipated, viscous ? sums.dissipated : 0, sums.inside_out});
   }
   return total;
 }
@@ -189,7 +193,7 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     buffer.deformation[3][i] = 1 + h.yy;
   }
   materials_.evaluate(blocks.batch, blocks.element, blocks.count, dt, keep, buffer);
-  Energy sum{0, 0, keep && buffer.any_inside_out(blocks.count)};
+  Energy sum{.inside_out = keep && buffer.any_inside_out(blocks.count)};
   for (std::uint32_t i = 0; i < blocks.count; ++i) {
     const double area = model.element_area[blocks.element + i];
     sum.stored += area * buffer.energy[i];
@@ -201,6 +205,7 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     moment.yx -= area * buffer.stress[2][i];
     moment.yy -= area * buffer.stress[3][i];
   }
+  if (materials_.viscous(blocks.batch)) sum.viscous = sum.dissipated;
   return sum;
 }
 

@@ -12,18 +12,22 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   l.kinetic = work.kinetic;
   l.strain = strain.stored;
   l.contact = contact.stored + loads.stored();
+  const Losses last = since_last_;
+  since_last_ = {contact.slip_loss, contact.damping_loss, strain.dissipated, strain.viscous};
   if (!started_) {
     // What was lost or done before t = 0 is no business of this ledger.
     initial_ = stored();
     started_ = true;
   } else {
     // Those of the step behind are found anew where a stage begins.
-    const Losses former = stage_begins ? since_last_ : Losses{};
-    since_last_ = {contact.slip_loss, contact.damping_loss, strain.dissipated};
+    const Losses former = stage_begins ? last : Losses{};
     l.friction_loss += since_last_.friction - former.friction;
     l.contact_damping_loss += since_last_.contact_damping - former.contact_damping;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += since_last_.material - former.material;
+    // A viscous stress of t_n works half behind and half ahead of it. To second order that is a quarter of
+    // its last loss less than if it had acted over the whole step behind, as the material books it.
+    l.material_loss -= (since_last_.viscous - last.viscous) / 4;
     l.external_work +=
         stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }

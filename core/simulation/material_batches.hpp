@@ -42,6 +42,8 @@ class MaterialBatches {
   /// The material of a batch if it takes elements from displacements to forces itself, or null.
   const Material* sweeping(std::uint32_t batch) const { return batches_[batch].sweeping; }
 
+  bool viscous(std::uint32_t batch) const { return batches_[batch].material->viscous_time() > 0; }
+
   /// Stress and energies of `count` elements of a batch from the deformation in the buffer. `keep`: for
   /// output. Different elements may be evaluated at once, each with a buffer of its own.
   void evaluate(std::uint32_t batch, std::uint32_t element, std::uint32_t count, double dt, bool keep,

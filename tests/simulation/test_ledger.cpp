@@ -1,7 +1,10 @@
 #include "simulation/simulation.hpp"
 #include "working_scene.hpp"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
+
+#include <string>
 
 using namespace talus;
 
@@ -36,5 +39,25 @@ TEST_CASE("the balance holds from the first step of a motion that starts under d
     }
     CHECK(moved);
     CHECK(simulation.ledger().global_damping_loss > 0);
+  }
+}
+
+TEST_CASE("the balance of a viscous body under a sudden load closes to second order in the step",
+          "[simulation][ledger]") {
+  for (const char* cover : {R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})"}) {
+    INFO(cover);
+    const auto largest_share = [&](double dt) {
+      WorkingScene text;
+      text.material += R"(, "damping_time": 1e-3)";
+      text.bodies = box("base", -2, -1, 2, 0, R"("fixed": true)") + "," +
+                    box("a", 0, 0, 1, 1, R"("cover": )" + std::string(cover));
+      text.gravity = "[0, -9.81]";
+      text.time = fmt::format(R"({{"end": 0.02, "dt": {}}})", dt);
+      return run_to_end(text).summary().largest_residual_share;
+    };
+    const double coarse = largest_share(8e-6), fine = largest_share(4e-6);
+    CAPTURE(coarse, fine);
+    CHECK(coarse < 1e-4);
+    CHECK(fine < coarse / 3);
   }
 }
