@@ -124,7 +124,10 @@ int compare_command(const Words& words) {
   std::deque<Registry> registries;
   const std::set<std::string> told = read_scenes(usage, *given, file, registries, order, log);
   order.scene_hash = hash_of_file(file);
-  std::vector<std::filesystem::path> read{file};
+  std::vector<std::filesystem::path> read;
+  for (const Scene& scene : order.scenes) {
+    for (std::filesystem::path& name : scene.files_read()) read.push_back(std::move(name));
+  }
   if (const std::string named = text_option(*given, "reference"); !named.empty()) {
     const std::filesystem::path reference = here_or_shipped(named);
     read.push_back(reference);

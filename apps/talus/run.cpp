@@ -83,8 +83,7 @@ int run_command(const Words& words) {
                                  file.string()));
   }
   read_running_options(usage, *given, order);
-  std::vector<std::filesystem::path> files{file};
-  for (const auto& [name, hash] : read.files) files.emplace_back(name);
+  const std::vector<std::filesystem::path> files = read.files_read();
   Simulation simulation(std::move(read), order.settings);
   prepare_output_folder(order.folder, given->count("overwrite") != 0, files);
 

@@ -200,7 +200,7 @@ int safety_command(const Words& words) {
       read_scene_of(file, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
-  prepare_output_folder(folder, given->count("overwrite") != 0, {file});
+  prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());
   const FolderLock mine(folder);
 
   const std::atomic<bool>* asked_to_stop = watch_for_interrupts();

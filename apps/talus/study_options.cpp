@@ -120,7 +120,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   order.folder = study.folder;
   order.plan = plan;
   order.overwrite = given.count("overwrite") != 0;
-  order.read_files = {file, text_option(given, "reference")};
+  order.reference = text_option(given, "reference");
   order.overrides = overrides_of(usage, given);
   order.scene_hash = hash_of_file(file);
   order.threads =

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -220,6 +221,13 @@ struct Scene {
       warnings;  ///< what a reviewer would raise, e.g. cohesion given to a law that reads none
   std::map<std::string, std::string> files;  ///< what else was read, by path: XXH3-128
   std::string resolved;                      ///< the scene as JSON text with every default spelled out
+
+  /// All that was read for it, itself first.
+  std::vector<std::filesystem::path> files_read() const {
+    std::vector<std::filesystem::path> read{file};
+    for (const auto& [name, hash] : files) read.emplace_back(name);
+    return read;
+  }
 };
 
 /// What a stage may change, as it is at the start.

@@ -207,7 +207,9 @@ class Runs {
       const std::vector<StudyLibrary> libraries = libraries_of(held.scene);
       const auto made = [&] { return run_in(run.folder, run.overrides, run.scene_hash, libraries); };
       if (StudyRun before = made(); before.done) return before;
-      prepare_output_folder(run.folder, true, order_.read_files);
+      std::vector<std::filesystem::path> read_files = held.scene.files_read();
+      read_files.push_back(order_.reference);
+      prepare_output_folder(run.folder, true, read_files);
       Simulation simulation(held.scene, run.settings);
       record_run(simulation, run);
       return made();

@@ -39,9 +39,9 @@ struct StudyOrder {
   StudyPlan plan;
   std::vector<Override> overrides;  ///< common to all runs
   std::string scene_hash;
-  int threads = 1;                                ///< runs at a time, one thread each
-  std::vector<std::filesystem::path> read_files;  ///< that no run may replace
-  bool overwrite = false;                         ///< other runs that the folder holds
+  int threads = 1;                  ///< runs at a time, one thread each
+  std::filesystem::path reference;  ///< that no run may replace; empty: none
+  bool overwrite = false;           ///< other runs that the folder holds
   int times = 1;  ///< that each run is made, all of them in turn, for the median of their cost
   /// Reads the scene with overrides; throws SceneError. Never called twice at a time.
   std::function<HeldScene(const std::vector<Override>&)> read;

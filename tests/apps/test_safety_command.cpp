@@ -92,6 +92,24 @@ TEST_CASE("talus safety overwrites nothing unasked, and refuses tolerances that 
   }
 }
 
+TEST_CASE("talus safety and compare replace no table that their scene reads", "[apps][safety][compare]") {
+  const Scratch scratch;
+  const std::string table = "t [s],a [m/s2]\n0,0\n1,0\n";
+  std::filesystem::create_directory(scratch / "results");
+  scratch.write("results/energy.csv", table);
+  const std::string shaken =
+      "/base_acceleration=[{\"time\": \"" + (scratch / "results/energy.csv").string() + "\"}, 0]";
+  const Call safety = reduce(scratch, {"--overwrite", "--set", shaken});
+  CHECK(safety.code == 2);
+  CHECK_THAT(safety.err, Contains("is read to make the results that would replace it"));
+  const Call compare = call_talus(scratch.folder(), {"compare", TALUS_SCENES "/stick_31deg.json", "--vary",
+                                                     "/contact/model=overlap_area,vertex_edge", "--set",
+                                                     shaken, "--out", "results", "--overwrite"});
+  CHECK(compare.code == 2);
+  CHECK_THAT(compare.err, Contains("is read to make the results that would replace it"));
+  CHECK(read_whole_file(scratch / "results/energy.csv") == table);
+}
+
 TEST_CASE("talus safety does not take trouble at any strength for a collapse", "[apps][safety]") {
   const Scratch scratch;
   const Call call = call_talus(
