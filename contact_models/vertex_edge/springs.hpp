@@ -5,7 +5,7 @@
 
 namespace talus::vertex_edge {
 
-/// What the host keeps for each vertex: five doubles.
+/// What the host keeps for each vertex: six doubles.
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring

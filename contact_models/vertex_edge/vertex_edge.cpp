@@ -81,7 +81,7 @@ class VertexEdge final : public ContactModel {
     std::vector<PiecePairGeometry> pieces;
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
-    double reach_of_bonds = 0;  ///< m
+    double reach_of_bonds = 0;  ///< m, or [-] of springs given directly
     CornerFinder finder;
   };
 
@@ -138,10 +138,10 @@ class VertexEdge final : public ContactModel {
     }
     const std::span<const PiecePairGeometry> all(work.pieces.data(), entries);
     for (std::uint32_t e = 0; e < entries; ++e) {
-      const double touching =
-          batch.bonds_form ? 1e-12 * std::min(longest_side(all[e].piece[0]), longest_side(all[e].piece[1]))
-                           : 0.0;
-      const double bonded = work.reach_of_bonds;
+      const double sides[2] = {longest_side(all[e].piece[0]), longest_side(all[e].piece[1])};
+      const double touching = batch.bonds_form ? 1e-12 * std::min(sides[0], sides[1]) : 0.0;
+      const double bonded =
+          direct_ ? work.reach_of_bonds * std::max(sides[0], sides[1]) : work.reach_of_bonds;
       const auto bond_reach = [&, bonded, touching](std::uint32_t key) {
         if (bonded == touching) return touching;  // no need to know who is bonded
         const SpringHistory* old = find_old(work.old, key);
@@ -169,15 +169,15 @@ class VertexEdge final : public ContactModel {
   }
 
   /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces; any while
-  /// it is held.
-  static double reach_of_bonds(const Interfaces& interfaces, bool held) {
+  /// it is held. Of springs that are given directly, per metre of tributary length.
+  double reach_of_bonds(const Interfaces& interfaces, bool held) const {
     double reach = 0;
     const std::uint32_t surfaces = interfaces.surface_count;
     for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
       const double* values = interfaces.value + interfaces.row[i] * interfaces.parameter_count;
       const Interface interface = read(values);
-      if (interface.normal_stiffness > 0)
-        reach = std::max(reach, interface.tensile / interface.normal_stiffness);
+      const double stiffness = direct_ ? normal_spring_ : interface.normal_stiffness;
+      if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
     }
     return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
   }

@@ -33,7 +33,7 @@ double Table::operator()(double where) const {
 
 double Table::over(const StepSpan& span) const {
   auto point = std::upper_bound(at_.begin(), at_.end(), span.begin);
-  if (point == at_.end() || *point >= span.end) return (*this)(span.time);
+  if (point == at_.end() || *point >= span.end) return (*this)(span.middle);
   double from = span.begin, value = (*this)(from), area = 0;
   const auto add = [&](double to, double value_there) {
     area += (to - from) * (value / 2 + value_there / 2);

@@ -11,9 +11,13 @@ namespace talus {
 /// A time and the half steps around it, s: what is read at that time acts over them.
 struct StepSpan {
   double begin, time, end;
+  double middle;  ///< of the span, and the very time where the steps beside it are alike
 
   StepSpan(double time_, double dt_behind, double dt_ahead)
-      : begin(time_ - dt_behind / 2), time(time_), end(time_ + dt_ahead / 2) {}
+      : begin(time_ - dt_behind / 2),
+        time(time_),
+        end(time_ + dt_ahead / 2),
+        middle(time_ + (dt_ahead - dt_behind) / 4) {}
 };
 
 /// Piecewise linear between points, constant beyond the first and the last.
@@ -23,8 +27,8 @@ class Table {
   Table(std::vector<double> at, std::vector<double> value);
 
   double operator()(double where) const;
-  /// The value at the time of a step; where a point lies within the span the mean over it, so that nothing
-  /// shorter than a step is lost.
+  /// The mean over the span, so that nothing shorter than a step is lost. Where no point lies within it that
+  /// is the value in its middle.
   double over(const StepSpan& span) const;
   /// ∫ from 0 to `where`, exact but for rounding.
   double integral(double where) const;

@@ -58,6 +58,22 @@ TEST_CASE("A bonded contact holds up to its tensile strength and then breaks for
   CHECK(shifted(bench, {0, -2e-5}).on(1).y == Approx(1e9 * 1e-5).epsilon(1e-6));
 }
 
+TEST_CASE("A bond on springs given directly holds up to its strength, whatever the stiffness per area says",
+          "[vertex_edge]") {
+  for (const double stiffness : {0.0, 1e12}) {
+    INFO(stiffness << " Pa/m");
+    LawBench bench("vertex_edge", with(bonded(), {{"normal_stiffness", stiffness}}),
+                   {{"calibration", 1}, {"normal_spring", 1e6}, {"tangential_spring", 1e6}});
+    bench.bodies = block_on_base(0);
+    bench.bonds_form = true;
+    bench.step();
+    bench.bonds_form = false;
+    // sigma_t l over the spring is 0.05 m.
+    CHECK(shifted(bench, {0, 0.049}).on(1).y == Approx(-2 * 1e6 * 0.049).epsilon(1e-9));
+    CHECK(shifted(bench, {0, 0.002}).size() == 0);
+  }
+}
+
 TEST_CASE("Bonds between blocks of one width are those on a wider base, pulled and sheared",
           "[vertex_edge]") {
   for (const double half : {0.5, 2.0}) {

@@ -115,10 +115,12 @@ TEST_CASE("what is shorter than a step acts with its mean over the step", "[scen
       const double at = span.begin + (span.end - span.begin) * (i + 0.5) / parts;
       exact += table(at) / parts;
     }
-    if (share != table(time)) CHECK(share == Approx(exact).epsilon(1e-4).margin(1e-6));
+    CHECK(share == Approx(exact).epsilon(1e-4).margin(1e-6));
     time += ahead, behind = ahead;
   }
   CHECK(table.over({-1, 0.5, 0.5}) == table(-1));  // linear over the span: the value to the bit
   CHECK(table.over({5, 1, 1}) == table(5));
+  CHECK(table.over({5, 0, 1}) == Approx(table(5.25)).epsilon(1e-15));  // the half step at the start
+  CHECK(table.over({5, 1, 0}) == Approx(table(4.75)).epsilon(1e-15));  // and the one before a stage
   CHECK(of_time(table, 2).over({0, 1, 1}, {}) == Approx(2 * (4.5 * 0.5 + (5 - 0.5) * 0.5)).epsilon(1e-12));
 }

@@ -84,6 +84,27 @@ TEST_CASE("a point load works along the way of its point", "[simulation][loads]"
   }
 }
 
+TEST_CASE("a load that is shorter than a step gives its impulse, at the start and beside a stage",
+          "[simulation][loads]") {
+  const auto speed_after = [](const std::string& load, const std::string& stages) {
+    WorkingScene text;
+    text.bodies = box("a", 0, 0, 1, 1);
+    text.rest = R"("loads": [{"body": "a", "point": [0.5, 0.5], "force": [)" + load + "}, 0]}]," + stages;
+    text.time = R"({"end": 0.02, "dt": 2e-4})";
+    return 2300 * run_to_end(text).body_motion(0).velocity.x;
+  };
+  CHECK(speed_after(R"({"scale": 1e5, "time": [[0, 0], [1e-4, 1], [2e-4, 0]])", "") == Approx(10));
+  CHECK(speed_after(R"({"scale": 1e5, "time": [[0, 1], [1e-3, 0]])", "") == Approx(50));
+  // The load is taken off at its peak, and where it has just fallen.
+  const std::string off = R"("stages": [{"name": "off", "from": 0.01, "set": {"/loads/0/force": [0, 0]}}],)";
+  CHECK(speed_after(R"({"scale": 1e5, "time": [[0.0099, 0], [0.01, 1], [0.0101, 0]])", off) == Approx(5));
+  CHECK(speed_after(R"({"scale": 1e5, "time": [[0.0099, 1], [0.01, 0]])", off) == Approx(995));
+  // It begins with a stage.
+  CHECK(speed_after(R"({"scale": 0)",
+                    R"("stages": [{"name": "on", "from": 0.01, "set": {"/loads/0/force":
+                 [{"scale": 1e5, "time": [[0.01, 0], [0.0101, 1], [0.0102, 0]]}, 0]}}],)") == Approx(10));
+}
+
 TEST_CASE("an eccentric load turns the body by its moment", "[simulation][loads]") {
   WorkingScene text;
   text.bodies = box("a", 0, 0, 1, 1);
