@@ -117,9 +117,10 @@ class Base {
 /// Loads of one overlap with one of its bodies as base, both by half of k φ h̄.
 class BaseLoads {
  public:
-  /// Adds the resultant on body b to `on_b`, all loads to `balance`; returns the energy, J/m.
+  /// Adds the loads on body b to `on_b`, as the mean of what acts on it and against what acts on body a; all
+  /// loads to `balance`; returns the energy, J/m.
   double apply(const LoadSink& sink, const Overlap& overlap, std::uint32_t base_body, double stiffness,
-               Balance& balance, Point& on_b) {
+               Balance& balance, Balance& on_b) {
     const Piece& piece = overlap.piece[base_body];
     const Piece& other = overlap.piece[1 - base_body];
     const Base base(piece);
@@ -135,7 +136,7 @@ class BaseLoads {
       const Point force = -(per_depth * region.area) * piece.normal(side);
       base.load(sink, side, region.centroid, force);
       balance.add(region.centroid, force);
-      on_b = on_b + (base_body == 1 ? 0.5 : -0.5) * force;
+      on_b.add(region.centroid, (base_body == 1 ? 0.5 : -0.5) * force);
       energy += per_depth * region.area * std::max(0.0, piece.depth(side, region.centroid));
       push_other(sink, piece, side, other, 1 - base_body, per_depth, balance, on_b);
     }
@@ -146,7 +147,7 @@ class BaseLoads {
  private:
   /// The boundary of the other body within the sector: a pressure that is linear along each edge.
   void push_other(const LoadSink& sink, const Piece& piece, std::uint32_t side, const Piece& other,
-                  std::uint32_t other_body, double per_depth, Balance& balance, Point& on_b) const {
+                  std::uint32_t other_body, double per_depth, Balance& balance, Balance& on_b) const {
     for (std::size_t i = 0; i < sector_.size(); ++i) {
       const overlap::SideLabel label = sector_[i].side;
       if (label.body != other_body || !other.real(label.index)) continue;
@@ -158,7 +159,7 @@ class BaseLoads {
         const Point force = per_depth * (2 * depth[end] + depth[1 - end]) / 6 * inward;
         sink.on_side(other, label.index, other.lever(label.index, at[end]), force);
         balance.add(at[end], force);
-        on_b = on_b + (other_body == 1 ? 0.5 : -0.5) * force;
+        on_b.add(at[end], (other_body == 1 ? 0.5 : -0.5) * force);
       }
     }
   }

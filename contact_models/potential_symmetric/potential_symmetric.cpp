@@ -4,6 +4,7 @@
 
 #include <talus/library.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace {
@@ -39,6 +40,16 @@ class PotentialSymmetric final : public ContactModel {
   }
 
  private:
+  /// The point nearest to the middle of a contact where its force has the moment of its loads. Dashpots act
+  /// in the middle; where they leave next to no force it stays within the contact.
+  static Point on_line_of_action(Point middle, const Balance& on_b, Point force, double chord) {
+    const double square = dot(force, force);
+    if (!(square > 0)) return middle;
+    const Point arm = on_b.moment_about(middle) / square * Point{force.y, -force.x};
+    const double length = std::sqrt(dot(arm, arm));
+    return middle + (length > chord / 2 ? chord / (2 * length) : 1) * arm;
+  }
+
   struct Workspace {
     overlap::AreaFinder finder;
     BaseLoads loads;
@@ -57,19 +68,21 @@ class PotentialSymmetric final : public ContactModel {
       const std::span<const overlap::LoadedEdge> edges = work.finder.edges_of(contact);
       double interface[std::size(interface_parameters)];
       overlap::mean_interface(batch.interfaces, edges, interface);
-      Point on_b{0, 0};
+      Balance on_b;
       work.finder.overlaps_of(c, [&](const Overlap& overlap) {
         for (std::uint32_t base = 0; base < 2; ++base)
           report.stored += work.loads.apply(sink, overlap, base, interface[0], balance, on_b);
       });
       const double chord = contact.chord();
-      const double push = chord > 0 ? std::max(0.0, dot(on_b, contact.chord_normal)) / (chord * chord) : 0;
+      const double push =
+          chord > 0 ? std::max(0.0, dot(on_b.force, contact.chord_normal)) / (chord * chord) : 0;
       const double viscous = overlap::viscous_pressure(edges, chord, interface[1], interface[0] * chord,
                                                        pair.reduced_mass, push, batch.dt, report);
       if (viscous != 0) overlap::load_edges(sink, edges, viscous, balance);
       report.penetration = std::max(report.penetration, contact.penetration);
       if (c < pair.slot_capacity && loads.reports != nullptr) {
-        const Point at = overlap::middle_of(contact, edges), force = on_b + viscous * contact.chord_normal;
+        const Point force = on_b.force + viscous * contact.chord_normal;
+        const Point at = on_line_of_action(overlap::middle_of(contact, edges), on_b, force, chord);
         loads.reports[pair.slot_start + c] = {at.x, at.y, force.x, force.y, 0, 0, contact.penetration, 0};
       }
     }
