@@ -1,5 +1,7 @@
 #include "picture/chart.hpp"
 
+#include "output/thinned.hpp"
+#include "picture/legend.hpp"
 #include "picture/palette.hpp"
 #include "picture/svg.hpp"
 
@@ -8,13 +10,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace talus {
 namespace {
 
 constexpr double chart_width = 720, chart_height = 360;
-constexpr double left = 84, right = 16, top = 34, bottom = 74;  ///< margins
-constexpr double first_legend_row = chart_height - 14, legend_row = 18;
+constexpr double least_left = 84, right = 16, top = 34, bottom = 74;  ///< margins
+constexpr double digit_width = 6.9, label_margin = 26;
 constexpr std::size_t most_points = 1500;  ///< of a curve: more than a line of print can show
 
 struct Range {
@@ -25,9 +28,11 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
+  /// A range that numbers on an axis could not tell apart counts as a single value.
   void make_room() {
     if (!(low <= high)) low = 0, high = 1;
-    if (low == high) low -= std::max(std::abs(low), 1.0) / 2, high += std::max(std::abs(high), 1.0) / 2;
+    if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high)))
+      low -= std::max(std::abs(low), 1.0) / 2, high += std::max(std::abs(high), 1.0) / 2;
   }
 };
 
@@ -36,15 +41,14 @@ std::string_view colour_of(const Curve& curve) {
                                            : palette::lines[curve.colour % std::size(palette::lines)];
 }
 
-void draw_curve(Svg& svg, const Curve& curve, Range x, Range y) {
-  const std::size_t every = std::max<std::size_t>(1, curve.x.size() / most_points);
+void draw_curve(Svg& svg, const Curve& curve, Range x, Range y, double left) {
   std::vector<Spot> points;
   const Stroke stroke{colour_of(curve), 1.6, curve.dashes};
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+  for (const std::size_t i : thinned_rows(curve.y, most_points)) {
     if (!std::isfinite(curve.y[i])) {
       svg.line(points, stroke);
       points.clear();
-    } else if (i % every == 0 || i + 1 == curve.x.size()) {
+    } else {
       points.push_back(
           {left + (curve.x[i] - x.low) / (x.high - x.low) * (chart_width - left - right),
            chart_height - bottom - (curve.y[i] - y.low) / (y.high - y.low) * (chart_height - top - bottom)});
@@ -53,17 +57,11 @@ void draw_curve(Svg& svg, const Curve& curve, Range x, Range y) {
   svg.line(points, stroke);
 }
 
-/// [curve] where its sample begins: as many in a line as there is room for.
-std::vector<Spot> places_in_legend(const std::vector<Curve>& curves) {
-  std::vector<Spot> places;
-  Spot at{left, first_legend_row};
-  for (const Curve& curve : curves) {
-    const double wide = 40 + 7.2 * static_cast<double>(curve.label.size());
-    if (at.x > left && at.x + wide > chart_width) at = {left, at.y + legend_row};
-    places.push_back(at);
-    at.x += wide;
-  }
-  return places;
+Legend legend_of(const std::vector<Curve>& curves, double left) {
+  std::vector<LegendEntry> entries;
+  for (const Curve& curve : curves)
+    entries.push_back({curve.label, std::string(colour_of(curve)), std::string(curve.dashes)});
+  return {std::move(entries), left, chart_width, chart_height - Legend::below};
 }
 
 }  // namespace
@@ -104,17 +102,21 @@ std::string chart_svg(const std::string& title, const std::string& x_label, cons
   y.low -= room;
   y.high += room;
 
-  const std::vector<Spot> legend = places_in_legend(curves);
-  const double height = (legend.empty() ? first_legend_row : legend.back().y) + legend_row - 4;
-  Svg svg(chart_width, height, title);
-  svg.text({left, 20}, title, Svg::Anchor::start, palette::ink, 14);
   const std::vector<double> y_ticks = ticks(y.low, y.high), x_ticks = ticks(x.low, x.high);
+  std::vector<std::string> y_numbers;
+  double left = least_left;
   for (const double value : y_ticks) {
+    y_numbers.push_back(fmt::format("{:.{}g}", value, digits_of(y_ticks)));
+    left = std::max(left, label_margin + 8 + digit_width * static_cast<double>(y_numbers.back().size()));
+  }
+  const Legend legend = legend_of(curves, left);
+  Svg svg(chart_width, legend.height(), title);
+  svg.text({left, 20}, title, Svg::Anchor::start, palette::ink, 14);
+  for (std::size_t i = 0; i < y_ticks.size(); ++i) {
     const double at =
-        chart_height - bottom - (value - y.low) / (y.high - y.low) * (chart_height - top - bottom);
+        chart_height - bottom - (y_ticks[i] - y.low) / (y.high - y.low) * (chart_height - top - bottom);
     svg.line({{left, at}, {chart_width - right, at}}, {palette::grid, 1});
-    svg.text({left - 8, at + 4}, fmt::format("{:.{}g}", value, digits_of(y_ticks)), Svg::Anchor::end,
-             palette::faint);
+    svg.text({left - 8, at + 4}, y_numbers[i], Svg::Anchor::end, palette::faint);
   }
   for (const double value : x_ticks) {
     const double at = left + (value - x.low) / (x.high - x.low) * (chart_width - left - right);
@@ -126,12 +128,8 @@ std::string chart_svg(const std::string& title, const std::string& x_label, cons
            {palette::faint, 1});
   svg.text({(left + chart_width - right) / 2, chart_height - bottom + 37}, x_label, Svg::Anchor::middle);
   svg.text({18, (top + chart_height - bottom) / 2}, y_label, Svg::Anchor::middle, palette::ink, 12, -90);
-  for (const Curve& curve : curves) draw_curve(svg, curve, x, y);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Spot at = legend[i];
-    svg.line({at, {at.x + 22, at.y}}, {colour_of(curves[i]), 2, curves[i].dashes});
-    svg.text({at.x + 28, at.y + 4}, curves[i].label, Svg::Anchor::start);
-  }
+  for (const Curve& curve : curves) draw_curve(svg, curve, x, y, left);
+  legend.draw(svg);
   return svg.done();
 }
 

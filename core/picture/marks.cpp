@@ -1,5 +1,6 @@
 #include "picture/marks.hpp"
 
+#include "picture/legend.hpp"
 #include "picture/palette.hpp"
 #include "picture/svg.hpp"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -95,17 +97,13 @@ void draw_frame(Svg& svg, const PowerAxis& x, const PowerAxis& y) {
   }
 }
 
-void draw_legend(Svg& svg, const std::vector<MarkLine>& lines) {
-  double at = marks_left;
-  const double base = marks_height - 14;
+Legend legend_of(const std::vector<MarkLine>& lines) {
+  std::vector<LegendEntry> entries;
   for (const MarkLine& line : lines) {
-    if (line.label.empty()) continue;
-    const double wide = 44 + 6.6 * static_cast<double>(line.label.size());
-    if (at + wide > marks_width) break;  // the rest would be cut off
-    svg.line({{at, base}, {at + 22, base}}, {line.colour, 2, line.dashes});
-    svg.text({at + 28, base + 4}, line.label, Svg::Anchor::start, palette::ink, 11);
-    at += wide;
+    if (!line.label.empty())
+      entries.push_back({line.label, std::string(line.colour), std::string(line.dashes)});
   }
+  return {std::move(entries), marks_left, marks_width, marks_height - Legend::below};
 }
 
 }  // namespace
@@ -127,12 +125,19 @@ std::vector<double> power_ticks(double low, double high) {
 
 std::string marks_svg(const std::string& title, const std::string& x_label, const std::string& y_label,
                       const std::vector<Mark>& marks, const std::vector<MarkLine>& lines) {
-  Svg svg(marks_width, marks_height, title);
+  const Legend legend = legend_of(lines);
+  Svg svg(marks_width, legend.height(), title);
   svg.text({marks_left, 22}, title, Svg::Anchor::start, palette::ink, 14);
   if (std::none_of(marks.begin(), marks.end(), can_be_shown)) {
     svg.text({marks_width / 2, marks_height / 2}, "nothing above 0 to show", Svg::Anchor::middle,
              palette::faint);
     return svg.done();
+  }
+  const auto shown = std::count_if(marks.begin(), marks.end(), can_be_shown);
+  if (const auto left_out = static_cast<std::ptrdiff_t>(marks.size()) - shown; left_out > 0) {
+    svg.text({marks_width - marks_right, 22},
+             fmt::format("{} of {} not drawn: not above 0", left_out, marks.size()), Svg::Anchor::end,
+             palette::faint, 11);
   }
   const PowerAxis x(marks, &Mark::x, marks_left, marks_width - marks_right),
       y(marks, &Mark::y, marks_height - marks_bottom, marks_top);
@@ -159,7 +164,7 @@ std::string marks_svg(const std::string& title, const std::string& x_label, cons
   for (const Mark& mark : marks) {
     if (can_be_shown(mark) && !mark.label.empty()) labels.put(svg, spot_of(mark), mark.label);
   }
-  draw_legend(svg, lines);
+  legend.draw(svg);
   return svg.done();
 }
 

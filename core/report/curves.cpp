@@ -1,5 +1,7 @@
 #include "report/curves.hpp"
 
+#include "output/thinned.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -34,11 +36,9 @@ struct Extent {
   }
 };
 
-std::vector<double> one_of(const std::vector<double>& values, std::size_t every) {
+std::vector<double> of_rows(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   std::vector<double> kept;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i % every == 0 || i + 1 == values.size()) kept.push_back(values[i]);
-  }
+  for (const std::size_t row : rows) kept.push_back(values[row]);
   return kept;
 }
 
@@ -56,17 +56,18 @@ Json short_numbers(const std::vector<double>& values) {
 }
 
 Json curves_of(const Series& series) {
-  const std::size_t every = std::max<std::size_t>((series.time.size() + most_rows - 1) / most_rows, 1);
-  Json values = Json::array(), largest = Json::array();
+  Json times = Json::array(), values = Json::array(), largest = Json::array();
   for (const std::vector<double>& column : series.values) {
-    values.push_back(short_numbers(one_of(column, every)));
+    const std::vector<std::size_t> rows = thinned_rows(column, most_rows);
+    times.push_back(short_numbers(of_rows(series.time, rows)));
+    values.push_back(short_numbers(of_rows(column, rows)));
     largest.push_back(Extent(column).largest());
   }
-  return {{"time", short_numbers(one_of(series.time, every))},
+  return {{"times", times},
           {"names", series.names},
           {"values", values},
           {"largest", largest},
-          {"every", every}};
+          {"thinned", series.time.size() > most_rows}};
 }
 
 Series difference(const Series& series, const Series& from) {

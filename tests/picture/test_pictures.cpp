@@ -16,6 +16,7 @@
 #include <boost/property_tree/xml_parser.hpp>
 
 #include <limits>
+#include <regex>
 #include <sstream>
 
 using namespace talus;
@@ -74,6 +75,20 @@ TEST_CASE("A chart is well-formed, breaks where there is no number, and says wha
   CHECK_THAT(high, Contains("height=\"432\""));
 }
 
+TEST_CASE("A chart has room for numbers far from zero, and values a rounding apart are a level line",
+          "[picture]") {
+  const std::string far =
+      chart_svg("far", "t [s]", "y", {{"y", {0, 1}, {5400000.9558, 5400000.9562}, 0, ""}});
+  check_xml(far);
+  const std::regex beside("x=\"([0-9.]+)\"[^>]*text-anchor=\"end\">([^<]*)<");
+  std::size_t numbers = 0;
+  for (std::sregex_iterator at(far.begin(), far.end(), beside); at != std::sregex_iterator(); ++at, ++numbers)
+    CHECK(std::stod((*at)[1]) - 6.5 * static_cast<double>((*at)[2].length()) > 24);  // right of the title
+  CHECK(numbers >= 3);
+  check_xml(
+      chart_svg("ulp", "t [s]", "y", {{"y", {0, 1}, {0.49993312593742345, 0.4999331259374235}, 0, ""}}));
+}
+
 TEST_CASE("Marks stand over axes by powers of ten and leave out what these cannot show", "[picture]") {
   const std::vector<Mark> marks{{1e-3, 1, "one", "the < first", "#0b6bcb"},
                                 {1e3, 10, "two", "", "#0b6bcb"},
@@ -83,11 +98,17 @@ TEST_CASE("Marks stand over axes by powers of ten and leave out what these canno
   check_xml(svg);
   CHECK(count(svg, "<circle") == 3);
   CHECK_THAT(svg, Contains("<title>the &lt; first</title>") && Contains(">one<") && Contains(">two<") &&
-                      Contains(">front<") && !Contains("naught"));
+                      Contains(">front<") && !Contains("naught") && Contains("1 of 4 not drawn"));
   CHECK(power_ticks(0.9, 22) == std::vector<double>{1, 2, 5, 10, 20});
   CHECK(power_ticks(3.5, 8) == std::vector<double>{4, 5, 7});
   CHECK(power_ticks(0.9e-3, 1100) == std::vector<double>{1e-3, 1e-2, 0.1, 1, 10, 100, 1000});
   check_xml(marks_svg("nothing", "x", "y", {{0, 0, "", "", ""}}, {}));
+  std::vector<MarkLine> many;
+  for (int i = 0; i < 9; ++i)
+    many.push_back({{0, 1}, "#2b8a3e", "", "friction_angle = " + std::to_string(i)});
+  const std::string high = marks_svg("many", "x", "y", marks, many);
+  check_xml(high);
+  for (const MarkLine& line : many) CHECK_THAT(high, Contains(">" + line.label + "<"));
 }
 
 TEST_CASE("Colours go from dark to light, and what lies outside of the range has the colour of its end",

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace talus;
@@ -18,13 +19,20 @@ TEST_CASE("Curves far from zero keep their shape, and thinned ones their largest
     series.values[2].push_back(500000.25);
   }
   const auto json = curves_of(series);
-  const std::size_t every = json["every"];
-  REQUIRE(every == 3);
-  REQUIRE(json["time"].size() == 1001);
-  for (std::size_t i = 0; i < 1001; ++i)
-    CHECK(json["values"][0][i].get<double>() == Approx(series.values[0][every * i]).epsilon(0).margin(1e-8));
+  CHECK(json["thinned"] == true);
+  for (std::size_t column = 0; column < 3; ++column) {
+    const auto& times = json["times"][column];
+    CHECK(times.size() <= 1502);
+    CHECK(times.front() == 0);
+    CHECK(times.back() == 3);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto row = static_cast<std::size_t>(std::lround(times[i].get<double>() / 0.001));
+      CHECK(json["values"][column][i].get<double>() ==
+            Approx(series.values[column][row]).epsilon(0).margin(1e-8));
+    }
+  }
   CHECK(json["largest"][1] == 7.5);
-  CHECK(json["values"][2][0] == 500000.25);
+  CHECK(std::find(json["values"][1].begin(), json["values"][1].end(), -7.5) != json["values"][1].end());
 }
 
 TEST_CASE("Of a difference only what both have is told", "[report]") {

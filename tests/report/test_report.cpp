@@ -131,7 +131,7 @@ TEST_CASE("A report is one page with all that it shows", "[report]") {
   const auto& run = data["runs"][0];
   CHECK(run["record"]["state_hash"] == result.state_hash);
   CHECK(run["history"]["names"][0] == "m.ux [m]");
-  CHECK(run["history"]["time"].size() == 21);
+  CHECK(run["history"]["times"][0].size() == 21);
   CHECK(run["energy"]["names"][0] == "kinetic [J/m]");
   CHECK(run["bodies"][1]["fixed"] == true);
   CHECK(run["film"]["parts"] == 2);

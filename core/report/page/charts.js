@@ -42,6 +42,13 @@ function onAxis(value, range, digits) {
   return String(+value.toPrecision(Math.min(15, digits + away)));
 }
 
+/** Pixels that the longest of the numbers beside the axis of these rows may take. */
+function widthOfNumbers(rows) {
+  const values = rows.flatMap((row) => row.slice(1)).filter(Number.isFinite);
+  const range = values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+  return Math.max(62, ...range.map((value) => 7.5 * onAxis(value, range, 4).length + 8));
+}
+
 /** A card with a chart of curves {label, colour, stroke, time, values}; `choice` offers other sets of curves. */
 function addChart(title, unit, curves, choice = null) {
   const small = element('small', {}, unit ? ` ${unit}` : '');
@@ -58,6 +65,13 @@ function addChart(title, unit, curves, choice = null) {
       labels: ['t', ...shown.map((curve) => curve.label)],
       colors: shown.map((curve) => css(curve.colour)),
       series: Object.fromEntries(shown.map((curve) => [curve.label, {strokePattern: curve.stroke || null}])),
+      axes: {
+        y: {
+          axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.yAxisRange(0), 4),
+          axisLabelWidth: widthOfNumbers(chart.rows),
+        },
+        x: {axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.xAxisRange(), 4), axisLabelWidth: 62},
+      },
     };
     if (chart.graph) {
       chart.graph.updateOptions(options);
@@ -69,16 +83,11 @@ function addChart(title, unit, curves, choice = null) {
       strokeWidth: 1.5,
       xlabel: 't [s]',
       xLabelHeight: 16,
-      axisLabelWidth: 62,
       legend: 'always',
       labelsDiv: legend,
       legendFormatter: (state) => legendOf(state),
       gridLineColor: css('--line'),
       axisLineColor: css('--line'),
-      axes: {
-        y: {axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.yAxisRange(0), 4)},
-        x: {axisLabelFormatter: (value, _, __, graph) => onAxis(value, graph.xAxisRange(), 4)},
-      },
       highlightCircleSize: 3.5,
       highlightCallback: (event, time) => setTime(time, chart),
     });
@@ -133,7 +142,7 @@ function monitorCharts() {
           label: comparison ? `${run.label} ${monitor}` : monitor,
           colour: '--run' + ((comparison ? index : group.monitors.indexOf(monitor)) % 6),
           stroke: comparison ? strokes[group.monitors.indexOf(monitor) % strokes.length] : null,
-          time: run.history.time,
+          time: run.history.times[column],
           values: run.history.values[column],
         });
       }),
@@ -148,7 +157,7 @@ function monitorCharts() {
             label: `reference ${monitor}`,
             colour: '--reference',
             stroke: [3, 3],
-            time: data.reference.time,
+            time: data.reference.times[column],
             values: data.reference.values[column],
           });
     });
@@ -165,7 +174,7 @@ function deviationChart() {
   const curve = (of, name, label, index, stroke) => {
     const column = of ? of.names.indexOf(name) : -1;
     if (column < 0) return [];
-    return [{label, colour: '--run' + (index % 6), stroke, time: of.time, values: of.values[column]}];
+    return [{label, colour: '--run' + (index % 6), stroke, time: of.times[column], values: of.values[column]}];
   };
   const of = (column) => ({
     unit: `[${parsed(names[column]).unit}]`,
@@ -198,7 +207,7 @@ function energyChart() {
         label: name.replace(' [J/m]', '').replaceAll('_', ' '),
         colour: '--run' + (i % 6),
         stroke: strokes[Math.floor(i / 6)],
-        time: energy.time,
+        time: energy.times[energy.names.indexOf(name)],
         values: energy.values[energy.names.indexOf(name)],
       })),
     };

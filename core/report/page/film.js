@@ -80,11 +80,17 @@ class Film {
     this.nowY = new Float32Array(info.corners);
     this.moved = new Float32Array(parts);
     this.farthest = 0;
-    for (const frame of [frames - 1, frames >> 1]) {
+    for (const frame of this.sampled()) {
       this.place(this.time[frame]);
-      this.farthest = Math.max(this.farthest, ...this.moved);
+      this.farthest = this.moved.reduce((most, moved) => Math.max(most, moved), this.farthest);
     }
     this.placed = null;
+  }
+
+  /** Frames that stand for all, the first and the last among them. */
+  sampled() {
+    const count = Math.min(this.frames, 60);
+    return Array.from({length: count}, (_, i) => Math.round((i * (this.frames - 1)) / Math.max(1, count - 1)));
   }
 
   /** Corners at a time, linear between frames. */

@@ -30,8 +30,8 @@ function fitView() {
   const loose = films.some((film) => film && film.fixed.some((fixed) => !fixed));
   for (const film of films) {
     if (!film) continue;
-    for (const time of [film.time[0], film.time[film.frames - 1]]) {
-      film.place(time);
+    for (const frame of film.sampled()) {
+      film.place(film.time[frame]);
       for (let part = 0; part < film.parts; ++part) {
         if (loose && film.fixed[part]) continue;
         for (let i = film.start[part]; i < film.start[part + 1]; ++i) {

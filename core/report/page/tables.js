@@ -164,7 +164,7 @@ function provenance() {
   for (const run of runs)
     for (const warning of run.record.warnings)
       add('warning', comparison ? `${run.label}: ${warning}` : warning);
-  const thinned = Math.max(...runs.map((run) => (run.history ? run.history.every : 1)));
-  if (thinned > 1) add('curves', `one of every ${thinned} rows of history.csv`);
+  if (runs.some((run) => run.history && run.history.thinned))
+    add('curves', 'drawn through the smallest and the largest of every few rows of history.csv');
   add('to repeat', element('code', {}, data.command));
 }
