@@ -2,6 +2,7 @@
 
 #include "blocks/faces.hpp"
 #include "blocks/loose_ends.hpp"
+#include "blocks/pinches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +115,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
   std::vector<Block>& blocks = made.blocks;
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
+  made.bridged = bridge_pinches(blocks, geos);
   for (Block& block : blocks) orient(block);
   made.names_of_one_line = name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
   for (Block& block : blocks) {

@@ -41,6 +41,7 @@ struct CutDomain {
   std::vector<Block> blocks;
   std::vector<LooseEnd> loose_ends;
   NamesOfOneLine names_of_one_line;
+  std::vector<Vec2> bridged;  ///< where corners were cut off between boundaries of one block, see pinches.hpp
 };
 
 /// The blocks into which lines cut the domain, and where drawn lines cut nothing. Ends of lines that lead

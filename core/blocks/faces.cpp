@@ -131,10 +131,10 @@ void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_
     const Ring ring = blocks[i].loops[0];
     const std::vector<std::uint32_t> surfaces = blocks[i].edge_surface[0];
     // Of diagonals that rounding alone tells apart the one from the first vertex.
-    const std::size_t a = distance(ring[0], ring[2]) <= (1 + 1e-9) * distance(ring[1], ring[3]) ? 0 : 1;
+    const std::size_t a = distance(ring[0], ring[2]) <= distance(ring[1], ring[3]) / all_but_rounding ? 0 : 1;
     const std::size_t b = a + 1, c = a + 2, d = (a + 3) % 4;
     if (std::min(signed_area({ring[a], ring[b], ring[c]}), signed_area({ring[a], ring[c], ring[d]})) <
-        smallest)
+        all_but_rounding * smallest)
       continue;
     blocks[i] = {{{ring[a], ring[b], ring[c]}}, {{surfaces[a], surfaces[b], 0}}, 0, {}};
     blocks.push_back({{{ring[a], ring[c], ring[d]}}, {{0, surfaces[c], surfaces[d]}}, 0, {}});

@@ -84,19 +84,18 @@ class Groups {
 
  private:
   bool is_small(Number face) const {
-    return area_[face] < smallest_ || 2 * area_[face] < thinnest_ * perimeter_[face];
+    return area_[face] < all_but_rounding * smallest_ ||
+           2 * area_[face] < all_but_rounding * thinnest_ * perimeter_[face];
   }
 
-  /// Lengths and areas that rounding alone tells apart count as equal, so that it does not decide.
   Number best_neighbour(Number face) const {
-    constexpr double about = 1 - 1e-9;
     double longest = 0, largest = 0;
     for (const auto& [other, length] : neighbours_[face]) longest = std::max(longest, length);
     for (const auto& [other, length] : neighbours_[face]) {
-      if (length >= about * longest) largest = std::max(largest, area_[other]);
+      if (length >= all_but_rounding * longest) largest = std::max(largest, area_[other]);
     }
     for (const auto& [other, length] : neighbours_[face]) {
-      if (length >= about * longest && area_[other] >= about * largest) return other;
+      if (length >= all_but_rounding * longest && area_[other] >= all_but_rounding * largest) return other;
     }
     return neighbours_[face].begin()->first;
   }

@@ -159,6 +159,15 @@ class Expander {
                     nearest.gap));
   }
 
+  void warn_of_bridges(const Section& section, const std::vector<Vec2>& points) {
+    if (points.empty()) return;
+    result.warnings.push_back(fmt::format(
+        "{}: at {} point{}, the first ({:.6g}, {:.6g}), a block meets itself across a corner of "
+        "what it encloses: 1 % of that corner's shorter side is cut off there, and goes to the "
+        "block around",
+        section.pointer(), points.size(), points.size() == 1 ? "" : "s", points[0].x, points[0].y));
+  }
+
   /// Of units or an origin that do not fit.
   void warn_of_drawing_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
     if (joints.drawing.empty()) return;
@@ -211,6 +220,7 @@ class Expander {
       CutDomain made = cut_domain(order, geos);
       warn_of_drawing_elsewhere(section, joints, box);
       warn_of_loose_ends(section, made.loose_ends);
+      warn_of_bridges(section, made.bridged);
       warn_of_names_of_one_line(section, joints, made.names_of_one_line);
       if (made.blocks.empty()) {
         mistakes_.add(

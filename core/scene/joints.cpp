@@ -94,9 +94,29 @@ void read_voronoi(Section& section, Joints& joints) {
 }
 
 /// Of $INSUNITS, what is not the metres that a drawing is read in.
-constexpr std::pair<int, std::string_view> foreign_units[] = {{1, "inches"},      {2, "feet"},
-                                                              {4, "millimetres"}, {5, "centimetres"},
-                                                              {7, "kilometres"},  {14, "decimetres"}};
+constexpr std::pair<int, std::string_view> foreign_units[] = {{1, "inches"},
+                                                              {2, "feet"},
+                                                              {3, "miles"},
+                                                              {4, "millimetres"},
+                                                              {5, "centimetres"},
+                                                              {7, "kilometres"},
+                                                              {8, "microinches"},
+                                                              {9, "mils"},
+                                                              {10, "yards"},
+                                                              {11, "angstroms"},
+                                                              {12, "nanometres"},
+                                                              {13, "micrometres"},
+                                                              {14, "decimetres"},
+                                                              {15, "decametres"},
+                                                              {16, "hectometres"},
+                                                              {17, "gigametres"},
+                                                              {18, "astronomical units"},
+                                                              {19, "light years"},
+                                                              {20, "parsecs"},
+                                                              {21, "US survey feet"},
+                                                              {22, "US survey inches"},
+                                                              {23, "US survey yards"},
+                                                              {24, "US survey miles"}};
 
 void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& section, Joints& joints) {
   const std::string pointer = section.pointer_to("dxf");

@@ -133,6 +133,46 @@ TEST_CASE("small blocks join the neighbour with the longest common boundary", "[
   CHECK(made(joints + R"(, "smallest_share": 0.4)").size() == 1);
 }
 
+TEST_CASE("blocks that are just as large as the smallest stay, wherever they lie", "[blocks]") {
+  for (const double x : {0.0, 0.3, 1.0, 100.0}) {
+    INFO(x);
+    const std::string domain =
+        fmt::format("[[{0}, {0}], [{1}, {0}], [{1}, {2}], [{0}, {2}]]", x, x + 10, x + 3);
+    for (const char* limit : {R"("smallest_area": 0.3)", R"("smallest_share": 1)"}) {
+      const auto bodies =
+          made(fmt::format(R"("bricks": {{"width": 1, "height": 0.3, "bond": "stack"}}, {})", limit), domain);
+      CHECK(bodies.size() == 100);
+    }
+  }
+  CHECK(made(R"("joint_sets": [{"dip": 0, "spacing": 0.1}], "smallest_area": 0.05,
+                "split": {"share": 1, "seed": 3})")
+            .size() == 20);
+}
+
+TEST_CASE("a block that meets itself at a point gets one simple boundary, and no rock is lost", "[blocks]") {
+  // Two joints cross and two more close the triangles left and right of the crossing.
+  const auto crossing =
+      made(R"("joints": [{"points": [[0.2, 0.2], [0.8, 0.8]]}, {"points": [[0.2, 0.8], [0.8, 0.2]]},
+                                {"points": [[0.2, 0.2], [0.2, 0.8]]}, {"points": [[0.8, 0.2], [0.8, 0.8]]}])");
+  REQUIRE(crossing.size() == 3);
+  CHECK(area_sum(crossing) == Approx(1).epsilon(rounding));
+  for (const SceneBody& body : crossing) {
+    const double area = area_of(body);
+    CHECK((area == Approx(0.09).epsilon(1e-3) || area == Approx(0.82).epsilon(1e-3)));
+  }
+  // A square on its corner stands on the lower edge, cut in two through that corner.
+  const auto standing =
+      made(R"("joints": [{"points": [[0.5, 0], [0.8, 0.3], [0.5, 0.6], [0.2, 0.3], [0.5, 0]]},
+                                {"points": [[0.5, 0], [0.5, 0.6]]}])");
+  REQUIRE(standing.size() == 3);
+  CHECK(area_sum(standing) == Approx(1).epsilon(rounding));
+  std::size_t halves = 0;
+  for (const SceneBody& body : standing) {
+    if (body.outer.vertices.size() == 4 && body.holes.empty() && area_of(body) < 0.1) ++halves;
+  }
+  CHECK(halves == 2);  // each half has lost its foot
+}
+
 TEST_CASE("slivers between joints that all but coincide are merged", "[blocks]") {
   const auto bodies =
       made(R"("joints": [{"points": [[0, 0.5], [1, 0.5]]}, {"points": [[0, 0.5], [1, 0.500000001]]}])");

@@ -174,6 +174,7 @@ TEST_CASE("lines of two names on each other raise a warning", "[blocks]") {
 TEST_CASE("a drawing in another unit than metres raises a warning", "[blocks]") {
   const Scratch scratch;
   for (const auto& [units, said] : {std::pair("4", "joints.dxf: drawn in millimetres ($INSUNITS 4)"),
+                                    std::pair("21", "joints.dxf: drawn in US survey feet ($INSUNITS 21)"),
                                     std::pair("6", ""), std::pair("0", "")}) {
     scratch.write("joints.dxf",
                   fmt::format("  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n{}\n  0\nENDSEC\n", units) +

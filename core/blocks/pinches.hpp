@@ -1,0 +1,17 @@
+#pragma once
+
+#include "blocks/cut.hpp"
+
+#include <vector>
+
+namespace talus {
+
+class Geos;
+
+/// Blocks whose own boundaries meet at a point have no simple outline: rock that joints enclose on two sides
+/// of a crossing, or that touches the boundary with a corner. There the corner of what is enclosed is cut off
+/// by 1 % of its shorter side and goes to the block around it. Blocks that touch have the same vertices along
+/// their common boundary. Returns the points.
+std::vector<Vec2> bridge_pinches(std::vector<Block>& blocks, const Geos& geos);
+
+}  // namespace talus
