@@ -27,10 +27,10 @@ double share_of(const Usage& usage, const std::string& text) {
 }
 
 /// The time step as the scene states it, or the safety factor of the automatic one, by factors of two.
-StudyPlan steps_of(const Usage& usage, const po::variables_map& given) {
+StudyPlan steps_of(const Usage& usage, const po::variables_map& given, const SceneFile& source) {
   Registry registry = offered_registry(usage, given);
-  const Scene scene = read_scene_of(text_option(given, "SCENE"), registry, overrides_of(usage, given),
-                                    given.count("allow-plugins") != 0);
+  const Scene scene =
+      read_scene_of(source, registry, overrides_of(usage, given), given.count("allow-plugins") != 0);
   const double most = scene.contact.component == nullptr ? 1 : table::safety_with_contact;
   Variation variation{scene.time.dt ? "/time/dt" : "/time/safety", {}};
   for (const double factor : {4.0, 2.0, 1.0, 0.5, 0.25}) {
@@ -65,8 +65,9 @@ int advise_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const double error = share_of(usage, text_option(*given, "error"));
-  const StudyPlan plan = given->count("vary") != 0 ? plan_of(usage, *given) : steps_of(usage, *given);
-  const Study study = make_study(usage, *given, words, plan);
+  const SceneFile source = scene_file_of(*given);
+  const StudyPlan plan = given->count("vary") != 0 ? plan_of(usage, *given) : steps_of(usage, *given, source);
+  const Study study = make_study(usage, *given, words, plan, source);
   if (study.interrupted) {
     tell(fmt::format("interrupted; the same words go on with the study in {}\n", study.folder.string()));
     return exit_code::interrupted;

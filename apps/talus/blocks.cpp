@@ -48,17 +48,18 @@ int blocks_command(const Words& words) {
   const Usage usage = usage_of_blocks();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const fs::path file = here_or_shipped(text_option(*given, "SCENE"));
+  Registry registry = offered_registry(usage, *given);
+  const SceneFile source = scene_file_of(*given);
+  const fs::path& file = source.file;
   const bool allow_plugins = given->count("allow-plugins") != 0;
   const std::string out = text_option(*given, "output");
   if (std::error_code none; fs::equivalent(file, out, none))
     throw InputError(fmt::format("'{}' is the scene itself: name another file", out));
   const std::vector<Override> overrides = overrides_of(usage, *given);
-  Registry registry = offered_registry(usage, *given);
-  const Scene scene = read_scene_of(file, registry, overrides, allow_plugins);
+  const Scene scene = read_scene_of(source, registry, overrides, allow_plugins);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   const std::string plain =
-      plain_scene_text(read_whole_file(file), file.string(), registry, {overrides, allow_plugins});
+      plain_scene_text(source.text, file.string(), registry, {overrides, allow_plugins});
   if (out.empty()) {
     fmt::print("{}", plain);
     return exit_code::ok;

@@ -29,15 +29,15 @@ namespace po = boost::program_options;
 
 /// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
 /// Returns the warnings, each of which was told once.
-std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& given,
-                                  const std::filesystem::path& file, std::deque<Registry>& registries,
-                                  ComparisonOrder& order, const Log& log) {
+std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& given, const SceneFile& source,
+                                  std::deque<Registry>& registries, ComparisonOrder& order, const Log& log) {
   std::set<std::string> warnings;
   for (const std::string& value : order.variation.values) {
     std::vector<Override> overrides = order.overrides;
     overrides.push_back({order.variation.pointer, value});
     Registry& registry = registries.emplace_back(offered_registry(usage, given));
-    order.scenes.push_back(read_scene_of(file, registry, overrides, given.count("allow-plugins") != 0, log));
+    order.scenes.push_back(
+        read_scene_of(source, registry, overrides, given.count("allow-plugins") != 0, log));
     for (const std::string& warning : order.scenes.back().warnings) {
       if (warnings.insert(warning).second) log.warning(warning);
     }
@@ -109,7 +109,6 @@ int compare_command(const Words& words) {
   if (!given) return exit_code::ok;
   if (given->count("vary") == 0) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
   const Log log = log_of(usage, *given);
-  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
 
   ComparisonOrder order;
   order.variation = parse_variation(text_option(*given, "vary"));
@@ -118,12 +117,14 @@ int compare_command(const Words& words) {
       threads_of(usage, *given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   order.neighbour_skin = given->count("no-skin") == 0;
   if (given->count("at") != 0) order.moments = (*given)["at"].as<std::vector<double>>();
+  const SceneFile source = scene_file_of(*given);
+  const std::filesystem::path& file = source.file;
   const std::string out = text_option(*given, "out");
   order.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-compare")
                              : std::filesystem::path(out);
   std::deque<Registry> registries;
-  const std::set<std::string> told = read_scenes(usage, *given, file, registries, order, log);
-  order.scene_hash = hash_of_file(file);
+  const std::set<std::string> told = read_scenes(usage, *given, source, registries, order, log);
+  order.scene_hash = hash_of_bytes(source.text);
   std::vector<std::filesystem::path> read;
   for (const Scene& scene : order.scenes) {
     for (std::filesystem::path& name : scene.files_read()) read.push_back(std::move(name));

@@ -73,6 +73,7 @@ Usage usage_of_doctor() {
       "FOLDER", "  talus doctor out/column\n"};
   usage.options.add_options()("plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
                               "look for plugins here before the folders that the run was started with");
+  add_allow_plugins(usage);
   return usage;
 }
 
@@ -91,7 +92,7 @@ int doctor_command(const Words& words) {
   }
   const Checkpoint checkpoint = read_checkpoint(file);
   KeptRun kept(checkpoint, {.threads = checkpoint.threads, .neighbour_skin = checkpoint.neighbour_skin},
-               plugin_folders_of(usage, *given));
+               plugin_folders_of(usage, *given), given->count("allow-plugins") != 0);
   Archive archive(checkpoint.state);
   kept.simulation.exchange(archive);
   fmt::print("\nagain from the last good state, t = {:.9g} s:\n", checkpoint.time);

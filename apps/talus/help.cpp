@@ -26,7 +26,9 @@ constexpr std::array codes{
               "run kept "
               "the error"},
     Explained{"130",
-              "interrupted or out of wall time; what was done so far is written, `talus resume` goes on"},
+              "interrupted or out of wall time; what was done so far is written: `talus resume` goes on with "
+              "a run, "
+              "the same words with study and advise, and compare and safety begin anew"},
 };
 
 constexpr std::array variables{

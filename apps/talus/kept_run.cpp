@@ -1,11 +1,12 @@
 #include "kept_run.hpp"
 
+#include "scene_options.hpp"
+
 #include "output/input_error.hpp"
+#include "output/output_folder.hpp"
 #include "output/run_record.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -55,9 +56,18 @@ void check_files(const Checkpoint& checkpoint, const Scene& scene) {
                   checkpoint.scene_file.string(), changed));
 }
 
-Scene scene_of(const Checkpoint& checkpoint, Registry& registry, const Log& log) {
-  Scene scene = read_scene_text(checkpoint.scene_text, checkpoint.scene_file.string(), registry,
-                                {checkpoint.overrides, checkpoint.allow_plugins});
+Scene read_again(const Checkpoint& checkpoint, Registry& registry, bool allow_plugins) {
+  try {
+    return read_scene_text(checkpoint.scene_text, checkpoint.scene_file.string(), registry,
+                           {checkpoint.overrides, allow_plugins});
+  } catch (const SceneError& problem) {
+    if (wants_permission(problem)) throw LibrariesNotAllowed(problem);
+    throw;
+  }
+}
+
+Scene scene_of(const Checkpoint& checkpoint, Registry& registry, bool allow_plugins, const Log& log) {
+  Scene scene = read_again(checkpoint, registry, allow_plugins);
   for (const std::string& warning : scene.warnings) log.warning(warning);
   check_libraries(checkpoint, scene);
   check_files(checkpoint, scene);
@@ -72,20 +82,17 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& given) {
 
 std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& given) {
   std::filesystem::path file = checkpoint_file(given);
-  const std::filesystem::path record = given / "run.json";
-  if (!std::filesystem::exists(file) && std::filesystem::exists(record)) {
-    const nlohmann::json run = nlohmann::json::parse(read_whole_file(record), nullptr, false);
-    if (run.is_object() && run.value("end", "") == "finished")
-      throw InputError(
-          fmt::format("the run in '{}' is at its end, so nothing is kept to go on with", given.string()));
-  }
+  if (!std::filesystem::exists(file) && holds_finished_run(given))
+    throw InputError(
+        fmt::format("the run in '{}' is at its end, so nothing is kept to go on with", given.string()));
   return file;
 }
 
 KeptRun::KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,
-                 const std::vector<std::filesystem::path>& more_plugin_folders, const Log& log)
+                 const std::vector<std::filesystem::path>& more_plugin_folders, bool allow_plugins,
+                 const Log& log)
     : registry(registry_of(checkpoint, more_plugin_folders)),
-      simulation(scene_of(checkpoint, registry, log), settings) {
+      simulation(scene_of(checkpoint, registry, allow_plugins, log), settings) {
   if (simulation.model_hash() != checkpoint.model_hash) {
     throw InputError(
         fmt::format("the bodies of '{}' are no longer those of the run: a file that the scene names "

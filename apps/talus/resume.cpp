@@ -23,6 +23,7 @@ Usage usage_of_resume() {
                               "threads to use (default: as before; same bits for any number)")(
       "plugin-path", po::value<std::vector<std::string>>()->value_name("DIR"),
       "look for plugins here before the folders that the run was started with");
+  add_allow_plugins(usage);
   add_running_options(usage);
   return usage;
 }
@@ -44,9 +45,11 @@ int resume_command(const Words& words) {
   order.from = &checkpoint;
   order.checkpoints = CheckpointOrder{checkpoint, {}, {}};
   order.checkpoints->run.state.clear();
-  order.checkpoints->run.continued.push_back(checkpoint.time);
+  order.checkpoints->run.continued.push_back(checkpoint.settling ? 0 : checkpoint.time);
+  order.checkpoints->run.allow_plugins = given->count("allow-plugins") != 0;
   read_running_options(usage, *given, order);
-  KeptRun kept(checkpoint, order.settings, plugin_folders_of(usage, *given), log);
+  KeptRun kept(checkpoint, order.settings, plugin_folders_of(usage, *given),
+               given->count("allow-plugins") != 0, log);
   return conduct(kept.simulation, order, *given, log);
 }
 

@@ -16,11 +16,11 @@ namespace {
 namespace po = boost::program_options;
 
 /// Whatever another program needs to make the same simulation.
-Checkpoint as_started(const std::filesystem::path& file, const RunOrder& order, const Scene& scene,
-                      const Usage& usage, const po::variables_map& given) {
+Checkpoint as_started(const SceneFile& source, const RunOrder& order, const Scene& scene, const Usage& usage,
+                      const po::variables_map& given) {
   Checkpoint run;
-  run.scene_file = std::filesystem::absolute(file);
-  run.scene_text = read_whole_file(file);
+  run.scene_file = std::filesystem::absolute(source.file);
+  run.scene_text = source.text;
   run.files = scene.files;
   run.overrides = order.overrides;
   run.allow_plugins = given.count("allow-plugins") != 0;
@@ -60,22 +60,23 @@ int run_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const Log log = log_of(usage, *given);
-  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
 
   RunOrder order;
   order.overrides = overrides_of(usage, *given);
   order.settings.threads = threads_of(usage, *given, 1);
   order.settings.neighbour_skin = given->count("no-skin") == 0;
+  Registry registry = offered_registry(usage, *given);
+  const SceneFile source = scene_file_of(*given);
+  const std::filesystem::path& file = source.file;
   const std::string out = text_option(*given, "out");
   order.folder = out.empty() ? std::filesystem::path("out") / file.stem() : std::filesystem::path(out);
 
-  Registry registry = offered_registry(usage, *given);
-  Scene read = read_scene_of(file, registry, order.overrides, given->count("allow-plugins") != 0, log);
+  Scene read = read_scene_of(source, registry, order.overrides, given->count("allow-plugins") != 0, log);
   for (const std::string& warning : read.warnings) log.warning(warning);
   // A pipe cannot be read twice, so that nobody could go on from a state.
   if (std::filesystem::is_regular_file(file)) {
-    order.scene_hash = hash_of_file(file);
-    order.checkpoints = CheckpointOrder{as_started(file, order, read, usage, *given), {}, {}};
+    order.scene_hash = hash_of_bytes(source.text);
+    order.checkpoints = CheckpointOrder{as_started(source, order, read, usage, *given), {}, {}};
   } else if (given->count("checkpoint-every") + given->count("wall-time") > 0) {
     throw UsageError(usage.command,
                      fmt::format("{} is a pipe, and a run from a pipe leaves no checkpoint: write "

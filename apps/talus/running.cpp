@@ -3,6 +3,7 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "output/run_record.hpp"
+#include "output/shell_word.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 
@@ -92,7 +93,15 @@ Log::Fields facts_of(const RunResult& result, const std::filesystem::path& folde
   return facts;
 }
 
-void say_how_it_ended(const RunResult& result, const std::filesystem::path& folder, const Log& log) {
+/// A folder that begins with a dash is no option.
+std::string words_to_resume(const RunOrder& order) {
+  const std::string folder = order.folder.string();
+  return fmt::format("talus resume {}{}", order.checkpoints->run.allow_plugins ? "--allow-plugins " : "",
+                     shell_word(folder.starts_with('-') ? "./" + folder : folder));
+}
+
+void say_how_it_ended(const RunResult& result, const RunOrder& order, const Log& log) {
+  const std::filesystem::path& folder = order.folder;
   if (result.end == RunEnd::stopped) log.error(result.trouble, facts_of(result, folder));
   if (log.in_json()) return;
   if (result.end == RunEnd::interrupted) {
@@ -101,12 +110,12 @@ void say_how_it_ended(const RunResult& result, const std::filesystem::path& fold
                                         time_in_words(result, result.time), folder.string()));
   }
   if (result.end == RunEnd::finished || result.checkpoint.empty()) return;
-  log.info("checkpoint",
-           fmt::format("{} {} holds the state at {}",
-                       result.end == RunEnd::interrupted
-                           ? fmt::format("`talus resume {}` goes on:", folder.string())
-                           : "the last good state was kept:",
-                       result.checkpoint.string(), time_in_words(result, result.checkpoint_time)));
+  log.info(
+      "checkpoint",
+      fmt::format("{} {} holds the state at {}",
+                  result.end == RunEnd::interrupted ? fmt::format("`{}` goes on:", words_to_resume(order))
+                                                    : "the last good state was kept:",
+                  result.checkpoint.string(), time_in_words(result, result.checkpoint_time)));
 }
 
 }  // namespace
@@ -157,7 +166,7 @@ int conduct(Simulation& simulation, RunOrder& order, const po::variables_map& gi
     const auto& told = scene.warnings;  // when the scene was read
     if (std::find(told.begin(), told.end(), warning) == told.end()) log.warning(warning);
   }
-  say_how_it_ended(result, order.folder, log);
+  say_how_it_ended(result, order, log);
   if (result.end != RunEnd::stopped && log.in_json())
     log.info(name_of(result.end), "", facts_of(result, order.folder));
   if (!quiet) print_summary(result, order.folder);

@@ -184,20 +184,21 @@ int safety_command(const Words& words) {
   const Usage usage = usage_of_safety();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
   SafetySettings settings;
   if (given->count("tolerance") != 0) settings.tolerance = (*given)["tolerance"].as<double>();
   if (!(settings.tolerance >= 1e-6 && settings.tolerance < 1))
     throw UsageError(usage.command,
                      fmt::format("--tolerance {}: allowed are 1e-6 to less than 1", settings.tolerance));
   settings.threads = threads_of(usage, *given, 1);
+  Registry registry = offered_registry(usage, *given);
+  const SceneFile source = scene_file_of(*given);
+  const std::filesystem::path& file = source.file;
   const std::string out = text_option(*given, "out");
   const std::filesystem::path folder = out.empty()
                                            ? std::filesystem::path("out") / (file.stem().string() + "-safety")
                                            : std::filesystem::path(out);
-  Registry registry = offered_registry(usage, *given);
   const Scene scene =
-      read_scene_of(file, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
+      read_scene_of(source, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
   prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());

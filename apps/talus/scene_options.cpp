@@ -22,13 +22,17 @@ void add_plugin_path(Usage& usage) {
                               "default; same bits at any");
 }
 
+void add_allow_plugins(Usage& usage) {
+  usage.options.add_options()("allow-plugins",
+                              "load the libraries that the scene names by path: they run with your rights");
+}
+
 void add_scene_options(Usage& usage) {
   usage.options.add_options()(
       "set", po::value<std::vector<std::string>>()->value_name("/pointer=value"),
       "override a value of the scene before it is validated; may be given several times");
   add_plugin_path(usage);
-  usage.options.add_options()("allow-plugins",
-                              "load the libraries that the scene names by path: they run with your rights");
+  add_allow_plugins(usage);
 }
 
 namespace {
@@ -83,6 +87,12 @@ std::filesystem::path here_or_shipped(const std::filesystem::path& named) {
   return shipped;
 }
 
+SceneFile scene_file_of(const po::variables_map& given) {
+  std::filesystem::path file = here_or_shipped(text_option(given, "SCENE"));
+  std::string text = read_whole_file(file);
+  return {std::move(file), std::move(text)};
+}
+
 std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& given) {
   std::vector<Override> overrides;
   for (const std::string& text : list_option(given, "set")) {
@@ -105,8 +115,8 @@ int threads_of(const Usage& usage, const po::variables_map& given, int fallback)
   return threads;
 }
 
-std::vector<std::string> named_libraries(const std::filesystem::path& scene_file) {
-  const auto json = nlohmann::json::parse(read_whole_file(scene_file), nullptr, false, true);
+std::vector<std::string> named_libraries(const std::string& scene_text) {
+  const auto json = nlohmann::json::parse(scene_text, nullptr, false, true);
   std::vector<std::string> names;
   if (!json.is_object() || !json.contains("plugins") || !json["plugins"].is_array()) return names;
   for (const auto& entry : json["plugins"]) {
@@ -115,8 +125,6 @@ std::vector<std::string> named_libraries(const std::filesystem::path& scene_file
   return names;
 }
 
-namespace {
-
 /// A path in "plugins" is a mistake only for want of permission; what is no path at all is none of these.
 bool wants_permission(const SceneError& problem) {
   return std::any_of(problem.mistakes.begin(), problem.mistakes.end(), [](const Mistake& mistake) {
@@ -124,6 +132,8 @@ bool wants_permission(const SceneError& problem) {
            mistake.message.find("--allow-plugins") != std::string::npos;
   });
 }
+
+namespace {
 
 /// Of libraries that, by their names, were to bring what others bring now.
 void warn_of_replaced(const Registry& registry, std::vector<std::string>& warnings) {
@@ -138,10 +148,10 @@ void warn_of_replaced(const Registry& registry, std::vector<std::string>& warnin
 
 }  // namespace
 
-Scene read_scene_of(const std::filesystem::path& file, Registry& registry,
-                    const std::vector<Override>& overrides, bool allow_plugins, const Log& log) {
+Scene read_scene_of(const SceneFile& given, Registry& registry, const std::vector<Override>& overrides,
+                    bool allow_plugins, const Log& log) {
   try {
-    Scene scene = read_scene(file, registry, {overrides, allow_plugins});
+    Scene scene = read_scene(given.file, given.text, registry, {overrides, allow_plugins});
     warn_of_replaced(registry, scene.warnings);
     return scene;
   } catch (const SceneError& problem) {

@@ -34,7 +34,7 @@ int study_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const StudyPlan plan = plan_of(usage, *given);
-  const Study study = make_study(usage, *given, words, plan);
+  const Study study = make_study(usage, *given, words, plan, scene_file_of(*given));
   if (study.interrupted) {
     tell(fmt::format("interrupted; the same words go on with the study in {}\n", study.folder.string()));
     return exit_code::interrupted;

@@ -108,8 +108,8 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
 }
 
 Study make_study(const Usage& usage, const po::variables_map& given, const std::vector<std::string>& words,
-                 const StudyPlan& plan) {
-  const std::filesystem::path file = text_option(given, "SCENE");
+                 const StudyPlan& plan, const SceneFile& source) {
+  const std::filesystem::path& file = source.file;
   const std::string out = text_option(given, "out");
   Study study;
   study.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-" + usage.command)
@@ -120,9 +120,9 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   order.folder = study.folder;
   order.plan = plan;
   order.overwrite = given.count("overwrite") != 0;
-  order.reference = text_option(given, "reference");
+  order.reference = here_or_shipped(text_option(given, "reference"));
   order.overrides = overrides_of(usage, given);
-  order.scene_hash = hash_of_file(file);
+  order.scene_hash = hash_of_bytes(source.text);
   order.threads =
       threads_of(usage, given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   order.times = given["repeat"].as<int>();
@@ -130,7 +130,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
     throw UsageError(usage.command, fmt::format("--repeat {}: allowed are 1 to 1000", order.times));
   order.read = [&](const std::vector<Override>& overrides) {
     HeldScene held{std::make_unique<Registry>(offered_registry(usage, given)), {}};
-    held.scene = read_scene_of(file, *held.registry, overrides, allow_plugins);
+    held.scene = read_scene_of(source, *held.registry, overrides, allow_plugins);
     return held;
   };
   // A scene that is wrong by itself is told at once, and so is a metric that it has not.
@@ -138,8 +138,10 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   for (const std::string& warning : plain.scene.warnings) print_warning(warning);
   const std::string column = column_of(usage, given, plain.scene);
   std::optional<Series> reference;
-  if (const std::string name = text_option(given, "reference"); !name.empty())
-    reference = read_reference_text(read_whole_file(name), name, std::array{column});
+  if (!order.reference.empty()) {
+    reference =
+        read_reference_text(read_whole_file(order.reference), order.reference.string(), std::array{column});
+  }
   prepare_folder_of_runs(study.folder);
   const FolderLock mine(study.folder);
 

@@ -24,6 +24,6 @@ struct Study {
 /// Makes the runs of a plan, finds out and writes study.csv, study.json, study.svg and study.html. `words`
 /// are those after the command's name.
 Study make_study(const Usage& usage, const boost::program_options::variables_map& given,
-                 const std::vector<std::string>& words, const StudyPlan& plan);
+                 const std::vector<std::string>& words, const StudyPlan& plan, const SceneFile& source);
 
 }  // namespace talus

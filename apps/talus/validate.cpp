@@ -126,16 +126,16 @@ int validate_command(const Words& words) {
   const Usage usage = usage_of_validate();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const std::filesystem::path file = here_or_shipped(text_option(*given, "SCENE"));
+  Registry registry = offered_registry(usage, *given);
+  const SceneFile source = scene_file_of(*given);
   const bool allow_plugins = given->count("allow-plugins") != 0;
-  const std::vector<std::string> libraries = named_libraries(file);
+  const std::vector<std::string> libraries = named_libraries(source.text);
   if (!libraries.empty() && !allow_plugins) {
     fmt::print(
         "{} names libraries by path: {}\nThey run with your rights; they load only with --allow-plugins.\n",
-        file.string(), listed(libraries));
+        source.file.string(), listed(libraries));
   }
-  Registry registry = offered_registry(usage, *given);
-  Simulation simulation(read_scene_of(file, registry, overrides_of(usage, *given), allow_plugins), {});
+  Simulation simulation(read_scene_of(source, registry, overrides_of(usage, *given), allow_plugins), {});
   print_scene(simulation, libraries);
   return exit_code::ok;
 }

@@ -46,8 +46,8 @@ int view_command(const Words& words) {
     return exit_code::ok;
   }
   Registry registry = offered_registry(usage, *given);
-  Scene scene =
-      read_scene_of(what, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
+  Scene scene = read_scene_of({what, read_whole_file(what)}, registry, overrides_of(usage, *given),
+                              given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   const std::string named = text_option(*given, "output");
   const fs::path out = named.empty() ? fs::path(what.stem()).replace_extension(".svg") : fs::path(named);

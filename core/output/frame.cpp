@@ -1,5 +1,6 @@
 #include "output/frame.hpp"
 
+#include "output/input_error.hpp"
 #include "output/triangulate.hpp"
 #include "output/whole_file.hpp"
 
@@ -14,6 +15,22 @@
 namespace talus {
 
 namespace {
+
+std::string bodies_name(std::uint64_t frame) {
+  return fmt::format("frames/frame_{:06}.vtu", frame);
+}
+
+std::string contacts_name(std::uint64_t frame) {
+  return fmt::format("frames/contacts_{:06}.vtu", frame);
+}
+
+void refuse_absent(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(file, none);
+  if (none || size == 0)
+    throw InputError(
+        fmt::format("'{}' is not what the run left: it is {}", file.string(), none ? "gone" : "empty"));
+}
 
 void append(std::vector<double>& values, Vec2 vector) {
   for (const double component : {vector.x, vector.y, 0.0}) values.push_back(component);
@@ -206,14 +223,23 @@ Grid FrameWriter::body_grid(const Frame& frame) {
 }
 
 void FrameWriter::add(const Frame& frame) {
-  const std::string bodies = fmt::format("frames/frame_{:06}.vtu", count_);
-  const std::string contacts = fmt::format("frames/contacts_{:06}.vtu", count_);
+  const std::string bodies = bodies_name(count_), contacts = contacts_name(count_);
   write_whole_file(folder_ / bodies, vtu_text(body_grid(frame), frame.time));
   write_whole_file(folder_ / contacts, vtu_text(contact_grid(frame), frame.time));
   entries_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, bodies);
   entries_ += fmt::format("<DataSet timestep=\"{}\" part=\"1\" file=\"{}\"/>\n", frame.time, contacts);
   write_list();
   ++count_;
+}
+
+void FrameWriter::flush_to_disk() {
+  if (count_ == 0) return;
+  for (; flushed_ < count_; ++flushed_) {
+    for (const std::string& name : {bodies_name(flushed_), contacts_name(flushed_)})
+      talus::flush_to_disk(folder_ / name);
+  }
+  talus::flush_to_disk(folder_ / "frames");
+  talus::flush_to_disk(folder_ / "frames.pvd");
 }
 
 std::uint64_t FrameWriter::bytes_of(const Frame& frame, PointNumbers numbers) {
@@ -234,7 +260,13 @@ void FrameWriter::exchange(Archive& archive) {
   archive(count_);
   archive(entries_);
   archive(triangles_);
-  if (archive.reading()) write_list();
+  if (!archive.reading()) return;
+  for (std::uint64_t frame = 0; frame < count_; ++frame) {
+    refuse_absent(folder_ / bodies_name(frame));
+    refuse_absent(folder_ / contacts_name(frame));
+  }
+  flushed_ = count_;
+  write_list();
 }
 
 }  // namespace talus

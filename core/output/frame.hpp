@@ -43,7 +43,11 @@ class FrameWriter {
   /// Size of the files of such a frame.
   static std::uint64_t bytes_of(const Frame& frame, PointNumbers numbers);
 
-  /// What was written so far; taken out of an archive it is what the .pvd lists from now on.
+  /// Files of frames written so far outlive a failure of the power.
+  void flush_to_disk();
+
+  /// What was written so far; taken out of an archive it is what the .pvd lists from now on. Throws
+  /// InputError where a file of it is gone or empty.
   void exchange(Archive& archive);
 
  private:
@@ -53,8 +57,8 @@ class FrameWriter {
 
   std::filesystem::path folder_;
   PointNumbers numbers_;
-  std::uint64_t count_ = 0;
-  std::string entries_;  ///< DataSet lines of the .pvd
+  std::uint64_t count_ = 0, flushed_ = 0;  ///< frames; of these surely on the disk
+  std::string entries_;                    ///< DataSet lines of the .pvd
   /// [part with holes][3 * triangle + corner], as in the first frame
   std::vector<std::vector<std::int64_t>> triangles_;
 };

@@ -3,8 +3,10 @@
 #include "checkpoint/checkpoint.hpp"
 #include "output/folder_lock.hpp"
 #include "output/input_error.hpp"
+#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -78,6 +80,13 @@ void prepare_folder_of_runs(const fs::path& folder) {
                                  folder.string(), results[0].filename().string()));
   }
   fs::create_directories(folder);
+}
+
+bool holds_finished_run(const fs::path& folder) {
+  const fs::path file = folder / "run.json";
+  if (!fs::exists(file)) return false;
+  const auto record = nlohmann::json::parse(read_whole_file(file), nullptr, false);
+  return record.is_object() && record.value("end", nlohmann::json()) == "finished";
 }
 
 }  // namespace talus

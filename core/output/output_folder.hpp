@@ -15,4 +15,7 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
 /// single run is refused (InputError).
 void prepare_folder_of_runs(const std::filesystem::path& folder);
 
+/// Whether it holds a run that came to its end, as far as its record can be read.
+bool holds_finished_run(const std::filesystem::path& folder);
+
 }  // namespace talus

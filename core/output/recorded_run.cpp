@@ -81,7 +81,7 @@ void step_to_the_end(const Course& course) {
   try {
     keeper.write_latest(reason);
   } catch (const std::system_error&) {
-    throw failure;
+    // then an older one may be there
   }
   if (result.checkpoint.empty()) throw failure;
   const std::string why = failure.code().message();
@@ -90,6 +90,25 @@ void step_to_the_end(const Course& course) {
       fmt::format(
           "{}; '{}' holds the state at t = {:.6g} s, from which `talus resume` goes on: the reason is",
           reason.substr(0, reason.rfind(": " + why)), result.checkpoint.string(), result.checkpoint_time));
+}
+
+/// The state at which a run ended, and its record.
+void conclude(Simulation& simulation, const RunOrder& order, Recorder& recorder, RunResult& result) {
+  // Of a step that nobody was to look at, stresses and contacts are those of an earlier one.
+  if (result.end != RunEnd::finished && simulation.started() && simulation.look_now()) recorder.record_last();
+  result.time = simulation.time();
+  result.never_settled = simulation.scene().settle.has_value() && !simulation.started();
+  result.history = recorder.take_series();
+  result.blocks = simulation.block_count();
+  result.elements = simulation.element_count();
+  result.summary = simulation.summary();
+  result.ledger = simulation.ledger();
+  result.state_hash = simulation.state_hash();
+  if (result.stepping.wall > 0) {
+    result.block_steps_per_second =
+        static_cast<double>(result.blocks) * static_cast<double>(result.summary.steps) / result.stepping.wall;
+  }
+  write_whole_file(order.folder / "run.json", run_record(simulation.scene(), order, result));
 }
 
 }  // namespace
@@ -117,25 +136,21 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
     result.end = RunEnd::stopped;
     result.trouble =
         simulation.started() ? trouble.what() : fmt::format("while settling: {}", trouble.what());
-    keeper.write_remembered("the last good state; then " + result.trouble);
+    try {
+      keeper.write_remembered("the last good state; then " + result.trouble);
+    } catch (const std::system_error& failure) {
+      result.trouble += fmt::format("; the last good state could not be kept: {}", failure.what());
+    }
   } catch (const std::system_error& failure) {
     keep_what_there_is(keeper, result, failure);
   }
-  // Of a step that nobody was to look at, stresses and contacts are those of an earlier one.
-  if (result.end != RunEnd::finished && simulation.started() && simulation.look_now()) recorder.record_last();
-  result.time = simulation.time();
-  result.never_settled = simulation.scene().settle.has_value() && !simulation.started();
-  result.history = recorder.take_series();
-  result.blocks = simulation.block_count();
-  result.elements = simulation.element_count();
-  result.summary = simulation.summary();
-  result.ledger = simulation.ledger();
-  result.state_hash = simulation.state_hash();
-  if (result.stepping.wall > 0) {
-    result.block_steps_per_second =
-        static_cast<double>(result.blocks) * static_cast<double>(result.summary.steps) / result.stepping.wall;
+  try {
+    conclude(simulation, order, recorder, result);
+  } catch (const std::system_error& failure) {
+    if (result.trouble.empty()) throw;
+    throw std::system_error(failure.code(),
+                            fmt::format("{}; and what is left could not be written", result.trouble));
   }
-  write_whole_file(order.folder / "run.json", run_record(simulation.scene(), order, result));
   if (result.end == RunEnd::finished) keeper.drop();
   return result;
 }

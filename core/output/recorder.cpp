@@ -1,10 +1,10 @@
 #include "output/recorder.hpp"
 
 #include "output/input_error.hpp"
+#include "output/output_folder.hpp"
 #include "output/whole_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -17,15 +17,11 @@ constexpr const char *history_name = "history.csv", *energy_name = "energy.csv";
 
 void refuse_other_files(const Simulation& simulation, const std::filesystem::path& folder) {
   // A run that finishes takes its checkpoint away.
-  if (const std::filesystem::path file = folder / "run.json"; std::filesystem::exists(file)) {
-    const auto record = nlohmann::json::parse(read_whole_file(file), nullptr, false);
-    if (record.is_object() && record.value("end", nlohmann::json()) == "finished") {
-      throw InputError(
-          fmt::format("'{}' is of a run that finished: the checkpoint beside it is of another, and to go on "
-                      "from it would "
-                      "spoil the results; put it into a folder of its own",
-                      file.string()));
-    }
+  if (holds_finished_run(folder)) {
+    throw InputError(fmt::format(
+        "'{}' is of a run that finished: the checkpoint beside it is of another, and to go on from "
+        "it would spoil the results; put it into a folder of its own",
+        (folder / "run.json").string()));
   }
   HistoryWriter::refuse_other(folder / history_name, monitor_columns(simulation.scene()));
   HistoryWriter::refuse_other(folder / energy_name, energy_columns());
@@ -67,6 +63,11 @@ void Recorder::record_last() {
   if (!frames_) return;
   const Frame frame = sample_frame(simulation_);
   if (frame.finite()) record_frame(frame);
+}
+
+void Recorder::flush_to_disk() {
+  for (const char* name : {"resolved.json", history_name, energy_name}) talus::flush_to_disk(folder_ / name);
+  if (frames_) frames_->flush_to_disk();
 }
 
 void Recorder::record_row() {

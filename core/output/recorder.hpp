@@ -30,6 +30,9 @@ class Recorder {
   /// The state at which a run was broken off. Positions that are no numbers would spoil the picture.
   void record_last();
 
+  /// What a checkpoint counts on outlives a failure of the power as it does.
+  void flush_to_disk();
+
   Series take_series() { return std::move(series_); }
 
  private:

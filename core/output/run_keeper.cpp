@@ -87,16 +87,19 @@ void RunKeeper::write_latest(const std::string& reason) {
 
 void RunKeeper::put(Checkpoint& checkpoint, const std::string& reason) {
   checkpoint.reason = reason;
-  result_.checkpoint = order_.folder / checkpoint_name;
+  const std::filesystem::path file = order_.folder / checkpoint_name;
+  recorder_.flush_to_disk();
+  write_checkpoint(file, checkpoint);
+  result_.checkpoint = file;
   result_.checkpoint_time = checkpoint.time;
   written_ = place_of(checkpoint);
-  write_checkpoint(result_.checkpoint, checkpoint);
 }
 
 void RunKeeper::drop() {
   if (!order_.checkpoints) return;
-  std::error_code kept;  // a folder that nothing can be removed from spoils no results
-  std::filesystem::remove(order_.folder / checkpoint_name, kept);
+  std::error_code kept;                     // a folder that nothing can be removed from spoils no results
+  for (const char* ending : {"", ".part"})  // of a run that was killed while it wrote one
+    std::filesystem::remove(order_.folder / (std::string(checkpoint_name) + ending), kept);
   result_.checkpoint.clear();
 }
 

@@ -28,13 +28,19 @@ namespace {
   fail("cannot write", file);
 }
 
-/// Of a file or, for the names in it, a folder.
-void flush_to_disk(const std::filesystem::path& path) {
+/// Whether it succeeded; if not, errno says why.
+bool flushed(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail("cannot open", path);
-  const bool flushed = ::fsync(descriptor) == 0;
+  if (descriptor < 0) return false;
+  const bool success = ::fsync(descriptor) == 0;
+  const int reason = errno;
   ::close(descriptor);
-  if (!flushed) fail("cannot write", path);
+  errno = reason;
+  return success;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
 }
 
 /// A link keeps pointing where it does: what it names is written.
@@ -75,13 +81,18 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   stream.close();
   if (!stream) fail_without(temporary, place);
-  if (durability == Durability::on_disk) flush_to_disk(temporary);
+  if (durability == Durability::on_disk && !flushed(temporary)) fail_without(temporary, place);
   std::filesystem::rename(temporary, place, problem);
   if (problem) {
     errno = problem.value();
     fail_without(temporary, place);
   }
-  if (durability == Durability::on_disk) flush_to_disk(place.has_parent_path() ? place.parent_path() : ".");
+  if (durability == Durability::on_disk) flush_to_disk(folder_of(place));
+}
+
+void flush_to_disk(const std::filesystem::path& path) {
+  errno = 0;
+  if (!flushed(path)) fail("cannot write", path);
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {

@@ -14,6 +14,10 @@ enum class Durability { with_the_system, on_disk };
 void write_whole_file(const std::filesystem::path& file, std::string_view contents,
                       Durability durability = Durability::with_the_system);
 
+/// Sees to it that what was written to a file, or for the names in it to a folder, outlives a failure of the
+/// power. Throws std::system_error that names it.
+void flush_to_disk(const std::filesystem::path& path);
+
 /// All bytes of a file. Throws std::system_error that names the file.
 std::string read_whole_file(const std::filesystem::path& file);
 

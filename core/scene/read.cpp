@@ -124,7 +124,12 @@ Scene read_scene_text(const std::string& text, const std::string& name, Registry
 }
 
 Scene read_scene(const std::filesystem::path& file, Registry& registry, const ReadOptions& options) {
-  ReadText read = read_text(read_whole_file(file), file.string(), registry, options);
+  return read_scene(file, read_whole_file(file), registry, options);
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::string& text, Registry& registry,
+                 const ReadOptions& options) {
+  ReadText read = read_text(text, file.string(), registry, options);
   read.scene.source =
       std::make_shared<SceneSource>(SceneSource{options.overrides, std::move(read.expansion)});
   return std::move(read.scene);

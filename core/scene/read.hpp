@@ -44,7 +44,11 @@ struct ReadOptions {
 /// be read.
 Scene read_scene(const std::filesystem::path& file, Registry& registry, const ReadOptions& options = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// The same of a file whose text is at hand.
+Scene read_scene(const std::filesystem::path& file, const std::string& text, Registry& registry,
+                 const ReadOptions& options = {});
+
+/// The same from text that no file holds; `name` stands for the file in messages.
 Scene read_scene_text(const std::string& text, const std::string& name, Registry& registry,
                       const ReadOptions& options = {});
 

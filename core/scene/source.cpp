@@ -9,7 +9,7 @@
 namespace talus {
 
 SceneError error_of(const Scene& scene, const std::vector<RefusedBody>& refused) {
-  if (scene.source == nullptr) {
+  if (scene.source == nullptr || !std::filesystem::is_regular_file(scene.file)) {
     std::vector<Mistake> mistakes;
     for (const RefusedBody& body : refused)
       mistakes.push_back({scene.file, 0, 0, below("/bodies", body.body), body.words});

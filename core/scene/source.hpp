@@ -23,7 +23,7 @@ struct RefusedBody {
 };
 
 /// The same as mistakes of the scene, at the bodies or at what generated them: the file is read once more to
-/// find the places. A scene that came from no file has its bodies named without.
+/// find the places. A scene that came from no file, or from a pipe, has its bodies named without.
 SceneError error_of(const Scene& scene, const std::vector<RefusedBody>& refused);
 
 }  // namespace talus

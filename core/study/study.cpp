@@ -2,6 +2,7 @@
 
 #include "output/hash.hpp"
 #include "output/input_error.hpp"
+#include "output/machine.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
 #include "output/run_record.hpp"
@@ -61,6 +62,13 @@ bool same_libraries(const Json& record, const std::vector<StudyLibrary>& librari
                     });
 }
 
+/// Instructions and processor change no bit of a run, but its cost.
+bool costs_alike(const Json& record, SimdLevel simd) {
+  const Json settings = record.value("settings", Json::object()), machine = record.value("machine", Json());
+  return settings.value("simd", Json()) == name_of(simd) && machine.is_object() &&
+         machine.value("processor", Json()) == processor_name();
+}
+
 /// Nothing where it is not all there: the run is made again.
 Series history_of(const std::filesystem::path& folder, double end) {
   const std::filesystem::path file = folder / "history.csv";
@@ -89,7 +97,7 @@ bool of_another_study(const std::filesystem::path& folder, const std::vector<Ove
 
 /// What the folder of a run tells, if it is the run that is asked for, with these libraries.
 StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                const std::string& scene_hash, const std::vector<StudyLibrary>& libraries) {
+                const std::string& scene_hash, SimdLevel simd, const std::vector<StudyLibrary>& libraries) {
   StudyRun run;
   run.folder = folder;
   if (!std::filesystem::exists(folder / "run.json")) return run;
@@ -99,7 +107,7 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
              settings = record.value("settings", Json::object());
   if (!scene.is_object() || !settings.is_object() || scene.value("xxh3_128", Json()) != scene_hash ||
       settings.value("set", Json()) != set_of(overrides) || record.value("end", Json()) == "interrupted" ||
-      !files_unchanged(scene) || !same_libraries(record, libraries))
+      !files_unchanged(scene) || !same_libraries(record, libraries) || !costs_alike(record, simd))
     return run;
   run.end = record["end"];
   run.trouble = record.value("trouble", "");
@@ -205,7 +213,9 @@ class Runs {
     try {
       const HeldScene held = read(run.overrides);
       const std::vector<StudyLibrary> libraries = libraries_of(held.scene);
-      const auto made = [&] { return run_in(run.folder, run.overrides, run.scene_hash, libraries); };
+      const auto made = [&] {
+        return run_in(run.folder, run.overrides, run.scene_hash, held.scene.simd, libraries);
+      };
       if (StudyRun before = made(); before.done) return before;
       std::vector<std::filesystem::path> read_files = held.scene.files_read();
       read_files.push_back(order_.reference);

@@ -289,3 +289,36 @@ TEST_CASE("resume and study see that a file which the scene reads has changed", 
   write_whole_file(first, R"({"talus": "0.1.0", "scene": {}})");
   CHECK(call_talus(scratch.folder(), study).code == 0);
 }
+
+TEST_CASE("resume and doctor load libraries that the scene names when they are allowed to, not before",
+          "[apps][resume]") {
+  const Scratch scratch;
+  std::string text = small_scene();
+  text.insert(text.find("\"title\""),
+              "\"plugins\": [\"" TALUS_TEST_LIBRARIES "/conformance/libfavours_an_axis.so\"], ");
+  scratch.write("small.json", text);
+  const Call broken =
+      call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0", "--allow-plugins"}));
+  INFO(broken.err);
+  REQUIRE(broken.code == 130);
+  CHECK_THAT(broken.err, Contains("`talus resume --allow-plugins broken` goes on"));
+  const Call refused = call_talus(scratch.folder(), {"resume", "broken"});
+  CHECK(refused.code == 3);
+  CHECK_THAT(refused.err, Contains("--allow-plugins"));
+  CHECK(call_talus(scratch.folder(), {"resume", "broken", "--allow-plugins", "--wall-time", "0"}).code ==
+        130);
+
+  std::vector<std::string> stopped = run_words("stopped", {"--allow-plugins", "--set", "/time/dt=0.1"});
+  REQUIRE(call_talus(scratch.folder(), stopped).code == 4);
+  CHECK(call_talus(scratch.folder(), {"doctor", "stopped"}).code == 3);
+  CHECK(call_talus(scratch.folder(), {"doctor", "stopped", "--allow-plugins"}).code == 0);
+}
+
+TEST_CASE("The words that go on with a run can be given to a shell as they are", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call spaced = call_talus(scratch.folder(), run_words("my out", {"--wall-time", "0"}));
+  CHECK_THAT(spaced.err, Contains("`talus resume 'my out'` goes on"));
+  const Call dashed = call_talus(scratch.folder(), {"run", "small.json", "--wall-time", "0", "--out=-y"});
+  CHECK_THAT(dashed.err, Contains("`talus resume ./-y` goes on"));
+}

@@ -66,6 +66,45 @@ TEST_CASE("A run that the disk stops keeps a state, from which resume gives what
   }
 }
 
+TEST_CASE("Words about a kept state are true, also where the disk has no room for it", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  std::size_t without = 0;
+  for (const int kilobytes : {2, 3, 4, 5, 6, 8}) {
+    CAPTURE(kilobytes);
+    const std::string out = "full_" + std::to_string(kilobytes);
+    std::vector<std::string> words = run_words(out);
+    words.insert(words.end(), {"--checkpoint-every", "1e-9"});
+    const Call call = call_within({kilobytes, 0, 0}, scratch.folder(), words);
+    INFO(call.err);
+    CHECK(call.code == 5);
+    const bool kept = std::filesystem::exists(scratch / out / "checkpoint.talus");
+    CHECK(kept == (call.err.find("holds the state") != std::string::npos));
+    without += kept ? 0 : 1;
+    if (!kept) continue;
+    const Call info = call_talus(scratch.folder(), {"info", out});
+    const std::size_t at = info.out.find("t = ");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(info.out.substr(at + 4)) == Approx(time_of_state(call.err)).epsilon(1e-5));
+  }
+  CHECK(without > 0);
+}
+
+TEST_CASE("Numerical trouble is told where the disk is full as well", "[faults]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  for (const int kilobytes : {3, 4, 8, 0}) {
+    CAPTURE(kilobytes);
+    const Call call = call_within(
+        {kilobytes, 0, 0}, scratch.folder(),
+        {"run", "small.json", "--no-report", "--quiet", "--out", std::to_string(kilobytes), "--set",
+         "/time/dt=0.1", "--set", "/time/end=20", "--set", "/output/history=1", "--set", "/output/frames=2"});
+    INFO(call.err);
+    CHECK((call.code == 4 || (call.code == 5 && kilobytes > 0)));
+    CHECK_THAT(call.err, Contains("error: the step is too large for the speed at t = 0.2 s"));
+  }
+}
+
 TEST_CASE("A file that cannot be written whole is not there, nor a part of it", "[faults]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());
