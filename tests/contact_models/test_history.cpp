@@ -96,6 +96,29 @@ TEST_CASE("A contact that opens forgets, and its spring energy is booked as lost
   }
 }
 
+TEST_CASE("Overlaps that meet in a point at the back of one strip are contacts of their own at any rounding",
+          "[laws]") {
+  // A box in halves lies deeper in its base than the base's strips are: both halves are bounded by the back
+  // of one strip, and meet there at the line that divides them.
+  for (const std::string& law : frictional_laws()) {
+    if (law == "vertex_edge") continue;
+    INFO(law);
+    LawBench bench(law);
+    bench.bodies = {in_strips(box(-2, -1, 2, 0), 1, 0.01), in_strips(box(-0.5, -0.03, 0.5, 0.97), 2, 0.1)};
+    Dice dice(5);
+    std::size_t first = 0;
+    for (int i = 0; i < 200; ++i) {
+      bench.bodies[1].motion.h = {dice.between(-1e-9, 1e-9), dice.between(-1e-9, 1e-9),
+                                  dice.between(-1e-9, 1e-9), dice.between(-1e-9, 1e-9)};
+      bench.bodies[1].motion.u = {dice.between(-1e-3, 1e-3), dice.between(-1e-4, 1e-4)};
+      const std::size_t contacts = bench.look().contacts.size();
+      if (i == 0) first = contacts;
+      CHECK(contacts == first);
+    }
+    CHECK(first >= 2);
+  }
+}
+
 TEST_CASE("Friction is not forgotten where the load acts beside the overlap", "[laws]") {
   // Two acute corners, point on point, 1.4 mm deep: where the sides of the one are nearest is not in the
   // other.

@@ -130,7 +130,9 @@ class OverlapGroups {
       const Overlap& overlap = pool_[i];
       for (std::uint32_t side = 0; side < overlap.polygon.size(); ++side) {
         const SideLabel label = overlap.polygon[side].side;
-        if (label.body > 1 || !overlap.piece[label.body].is_cut(label.index)) continue;
+        // Overlaps with one strip meet at its cuts in points, which rounding would have them share or not.
+        if (label.body > 1 || overlap.piece[label.body].is_strip()) continue;
+        if (!overlap.piece[label.body].is_cut(label.index)) continue;
         stretches_.push_back(
             {std::uint64_t{label.body} << 32 | overlap.piece[label.body].cut(label.index), i, side});
       }
