@@ -74,6 +74,17 @@ bool is_convex_quadrilateral(const Block& block) {
   return true;
 }
 
+/// With the surfaces of their edges, where these are known.
+void sort_holes(Block& block) {
+  const auto first = [](const Ring& ring) { return std::pair(ring[0].x, ring[0].y); };
+  for (std::size_t i = 2; i < block.loops.size(); ++i) {
+    for (std::size_t j = i; j > 1 && first(block.loops[j]) < first(block.loops[j - 1]); --j) {
+      std::swap(block.loops[j], block.loops[j - 1]);
+      if (!block.edge_surface.empty()) std::swap(block.edge_surface[j], block.edge_surface[j - 1]);
+    }
+  }
+}
+
 }  // namespace
 
 void orient(Block& block) {
@@ -92,8 +103,7 @@ void orient(Block& block) {
     const Moments part = moments_of(ring, about);
     all = {all.area + part.area, all.x + part.x, all.y + part.y};
   }
-  std::sort(block.loops.begin() + 1, block.loops.end(),
-            [](const Ring& a, const Ring& b) { return std::tie(a[0].x, a[0].y) < std::tie(b[0].x, b[0].y); });
+  sort_holes(block);
   block.area = all.area;
   block.centroid = {about.x + all.x / all.area, about.y + all.y / all.area};
 }

@@ -48,15 +48,17 @@ Geos::Geometry Geos::points(const std::vector<Vec2>& points) const {
   return collection(GEOS_MULTIPOINT, std::move(all));
 }
 
-GEOSGeometry* Geos::ring(const Ring& ring) const {
-  return taken(GEOSGeom_createLinearRing_r(context_, sequence(ring, true))).release();
+Geos::Geometry Geos::ring(const Ring& ring) const {
+  return taken(GEOSGeom_createLinearRing_r(context_, sequence(ring, true)));
 }
 
 Geos::Geometry Geos::polygon(const Loops& loops) const {
-  GEOSGeometry* outer = ring(loops[0]);
-  std::vector<GEOSGeometry*> holes;
-  for (std::size_t i = 1; i < loops.size(); ++i) holes.push_back(ring(loops[i]));
-  return taken(GEOSGeom_createPolygon_r(context_, outer, holes.data(), static_cast<unsigned>(holes.size())));
+  std::vector<Geometry> rings;
+  for (const Ring& loop : loops) rings.push_back(ring(loop));
+  std::vector<GEOSGeometry*> bare;
+  for (Geometry& each : rings) bare.push_back(each.release());
+  return taken(
+      GEOSGeom_createPolygon_r(context_, bare[0], bare.data() + 1, static_cast<unsigned>(bare.size() - 1)));
 }
 
 Geos::Geometry Geos::collection(int type, std::vector<Geometry> parts) const {

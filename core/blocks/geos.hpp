@@ -51,7 +51,7 @@ class Geos {
   std::vector<Vec2> points_of(const GEOSGeometry* line) const;
   std::vector<Loops> polygons_of(const GEOSGeometry& collection) const;
   GEOSCoordSequence* sequence(const std::vector<Vec2>& points, bool closed) const;
-  GEOSGeometry* ring(const Ring& ring) const;
+  Geometry ring(const Ring& ring) const;
 
   GEOSContextHandle_t context_;
   mutable std::string failure_;

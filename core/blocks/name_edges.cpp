@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <utility>
 
 namespace talus {
@@ -37,6 +37,11 @@ bool is_near(const Segment& segment, Vec2 point, double tolerance) {
   return std::hypot(x - share * dx, y - share * dy) <= tolerance;
 }
 
+struct TreeEnd {
+  GEOSContextHandle_t context;
+  void operator()(GEOSSTRtree* tree) const { GEOSSTRtree_destroy_r(context, tree); }
+};
+
 /// Segments by place.
 class Index {
  public:
@@ -44,15 +49,13 @@ class Index {
       : segments_(segments),
         tolerance_(tolerance),
         geos_(geos),
-        tree_(GEOSSTRtree_create_r(geos.context(), 8)) {
+        tree_(GEOSSTRtree_create_r(geos.context(), 8), TreeEnd{geos.context()}) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
       lines_.push_back(geos.line({segments[i].from, segments[i].to}));
-      GEOSSTRtree_insert_r(geos.context(), tree_, lines_.back().get(), const_cast<Segment*>(&segments_[i]));
+      GEOSSTRtree_insert_r(geos.context(), tree_.get(), lines_.back().get(),
+                           const_cast<Segment*>(&segments_[i]));
     }
   }
-  ~Index() { GEOSSTRtree_destroy_r(geos_.context(), tree_); }
-  Index(const Index&) = delete;
-  Index& operator=(const Index&) = delete;
 
   /// The tree tells what it finds in no order: the first segment of the list wins. Of a side too long to be
   /// that of a crossing `beaten` is told the name of another.
@@ -62,7 +65,7 @@ class Index {
     const Geos::Geometry around =
         geos_.line({{std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin},
                     {std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin}});
-    GEOSSTRtree_query_r(geos_.context(), tree_, around.get(), look_at, &search);
+    GEOSSTRtree_query_r(geos_.context(), tree_.get(), around.get(), look_at, &search);
     if (search.found == nullptr) return 0;
     const bool long_enough = std::hypot(to.x - from.x, to.y - from.y) > 10 * tolerance_;
     if (search.beaten != nullptr && long_enough)
@@ -92,7 +95,7 @@ class Index {
   const std::vector<Segment>& segments_;
   double tolerance_;
   const Geos& geos_;
-  GEOSSTRtree* tree_;
+  std::unique_ptr<GEOSSTRtree, TreeEnd> tree_;
   std::vector<Geos::Geometry> lines_;
 };
 

@@ -1,7 +1,6 @@
 #include "model/covered_body.hpp"
 
 #include "model/region.hpp"
-#include "model/strips.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 #include "model/model.hpp"
 
+#include "geometry/convex_pieces.hpp"
 #include "model/covered_body.hpp"
 #include "model/laid_cover.hpp"
 #include "model/region.hpp"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "geometry/convex_pieces.hpp"
 #include "geometry/polygon.hpp"
 #include "model/partition.hpp"
 #include "scene/scene.hpp"

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 

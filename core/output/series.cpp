@@ -54,7 +54,7 @@ double number_of(std::string_view field, const Position& position) {
   double value = 0;
   const char* first = text.data() + (text.front() == '+' ? 1 : 0);
   const auto [end, problem] = std::from_chars(first, text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size()) {
+  if (text.starts_with("+-") || problem != std::errc() || end != text.data() + text.size()) {
     fail(position, fmt::format("'{}' is no number", text));
   }
   return value;
@@ -79,7 +79,8 @@ void read_row(Series& series, std::string_view line, const Position& position) {
     fail(position, fmt::format("{} fields where the header has {}", fields.size(), series.names.size() + 1));
   }
   const double time = number_of(fields[0], position);
-  if (!(series.time.empty() ? time == time : time > series.time.back())) {
+  if (!std::isfinite(time)) fail(position, fmt::format("'{}' is no time", fields[0]));
+  if (!series.time.empty() && !(time > series.time.back())) {
     fail(position, fmt::format("times must increase, but '{}' comes here", fields[0]));
   }
   series.time.push_back(time);

@@ -142,6 +142,15 @@ Grid read_vtu_text(std::string_view text) {
       refuse("a cell has no corners");
     start = end;
   }
+  const auto refuse_other_size = [](const std::vector<GridArray>& arrays, std::size_t entries) {
+    for (const GridArray& array : arrays) {
+      const std::size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
+      if (size != entries * array.components)
+        refuse("an array is not as long as its points or cells are many");
+    }
+  };
+  refuse_other_size(grid.point_data, grid.points.size() / 3);
+  refuse_other_size(grid.cell_data, grid.offsets.size());
   for (const std::int64_t corner : grid.connectivity) {
     if (corner < 0 || corner >= static_cast<std::int64_t>(grid.points.size() / 3))
       refuse("a corner is no point");

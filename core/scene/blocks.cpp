@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <exception>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace talus {

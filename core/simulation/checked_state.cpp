@@ -189,15 +189,20 @@ void Simulation::State::check_balance() {
           ? fmt::format("; deepest contact {:.3g} m between {} and {}", contact_totals.penetration,
                         place(contact_totals.deepest_a), place(contact_totals.deepest_b))
           : "";
+  const Component* law = scene.contact.component == nullptr ? nullptr : scene.contact.component->component;
+  const std::string of_the_law =
+      law != nullptr && (law->traits & trait::has_potential) == 0
+          ? fmt::format("; where that changes nothing, '{}', which has no potential, makes or loses it",
+                        law->name)
+          : "";
   throw NumericalTrouble(
       fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
                   "throughput {:.3g} J/m, the "
                   "limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the critical {:.3g} s ({}): take a "
-                  "smaller one, or damp the "
-                  "contacts",
+                  "smaller one, or damp the contacts{}",
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  limiter_of(scene, critical)));
+                  limiter_of(scene, critical), of_the_law));
 }
 
 void Simulation::State::warn_of_large_step() {

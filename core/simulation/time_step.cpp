@@ -109,7 +109,6 @@ class Crowd {
 /// Dashpots of an absorbing boundary: the stiffer of the two at both ends.
 double impedance(const Scene& scene, std::uint32_t body) {
   const SceneMaterial& material = scene.materials[scene.bodies[body].material];
-  if (material.model.component == nullptr) return 0;
   double tangent[9];
   make<Material>(*material.model.component, material.model.values)->stiffest_tangent(tangent);
   return std::sqrt(material.density * tangent[0]);

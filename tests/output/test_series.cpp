@@ -30,6 +30,8 @@ TEST_CASE("a bad CSV file is refused with its line", "[output][series]") {
   CHECK_THROWS_WITH(read_series_text("t [s],a,a\n", "f.csv"), Contains("twice"));
   CHECK_THROWS_WITH(read_series_text("t [s],a\n0,1\n1,x\n", "f.csv"), Contains("f.csv:3") && Contains("'x'"));
   CHECK_THROWS_WITH(read_series_text("t [s],a\n0,1,2\n", "f.csv"), Contains("3 fields"));
+  CHECK_THROWS_WITH(read_series_text("t [s],a\n0,+-1\n", "f.csv"), Contains("'+-1' is no number"));
+  CHECK_THROWS_WITH(read_series_text("t [s],a\ninf,1\n", "f.csv"), Contains("'inf' is no time"));
   CHECK_THROWS_WITH(read_series_text("t [s],a\n1,1\n1,2\n", "f.csv"), Contains("increase"));
   CHECK_THROWS_AS(read_series_text("t [s],\"a\n", "f.csv"), InputError);
 }

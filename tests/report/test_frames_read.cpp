@@ -48,6 +48,16 @@ TEST_CASE("a frame's file that is none is named", "[report]") {
                     Contains(file) && Contains("not a frame that talus wrote: a part is missing"));
 }
 
+TEST_CASE("a frame with an array of another length than it has points or cells is refused", "[report]") {
+  Grid grid = two_contacts();
+  CHECK_NOTHROW(read_vtu_text(vtu_text(grid, 0)));
+  std::get<std::vector<double>>(grid.point_data[0].values).pop_back();
+  CHECK_THROWS_WITH(read_vtu_text(vtu_text(grid, 0)), Contains("an array is not as long as"));
+  grid = two_contacts();
+  grid.cell_data = {{"speed", 1, std::vector<double>{}}};
+  CHECK_THROWS_WITH(read_vtu_text(vtu_text(grid, 0)), Contains("an array is not as long as"));
+}
+
 TEST_CASE("frames are listed in their order, each with its file of contacts", "[report]") {
   const Scratch scratch;
   CHECK(listed_frames(scratch.folder()).empty());
