@@ -1,6 +1,7 @@
 #include "slivers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -43,10 +44,13 @@ struct Search {
     return poor[patch[0]] == 0 && poor[patch[1]] == 0 && poor[patch[2]] == 0;
   }
 
-  double squared_distance(std::uint32_t element, Point from) const {
+  /// The square of the distance over that of the side of an element. On a lattice many are alike but for
+  /// rounding, which is not to decide: a twin of other size or place would follow others.
+  double distance_class(std::uint32_t element, Point from) const {
     const auto [p, q, r] = corners(element);
     const double x = (p.x + q.x + r.x) / 3 - from.x, y = (p.y + q.y + r.y) / 3 - from.y;
-    return x * x + y * y;
+    const double side = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
+    return std::round((x * x + y * y) / (1e-6 * side));
   }
 
   /// Elements of the patches that have not been seen.
@@ -91,7 +95,7 @@ struct Search {
     }
     const Point star = stars[patch];
     std::sort(found.begin(), found.end(), [&](std::uint32_t m, std::uint32_t n) {
-      const double to_m = squared_distance(m, star), to_n = squared_distance(n, star);
+      const double to_m = distance_class(m, star), to_n = distance_class(n, star);
       return to_m != to_n ? to_m < to_n : m < n;
     });
     return found;

@@ -69,6 +69,31 @@ TEST_CASE("slivers are left alone by choice, and steadied below the share that i
         lay(body, {1, {0, 0}, 0, merge, 0.1}).steadied.size());
 }
 
+TEST_CASE("what a patch follows is the same at any size of the body, turned and shifted with it",
+          "[plugins][hexagonal]") {
+  const auto followed = [](double scale, double angle, double shift, auto treatment) {
+    const double turn = angle * std::acos(-1.0) / 180, s = 0.355 * scale;
+    std::vector<Point> ring;
+    for (const Point corner : {Point{-s, -s}, Point{s, -s}, Point{s, s}, Point{-s, s}})
+      ring.push_back({corner.x * std::cos(turn) - corner.y * std::sin(turn) + shift,
+                      corner.x * std::sin(turn) + corner.y * std::cos(turn) - shift});
+    return lay(DrawnBody({ring}), {0.2 * scale, {shift, -shift}, 17.0 + angle, treatment, 0.1}).steadied;
+  };
+  for (const auto treatment : {merge, mass_scale}) {
+    for (int i = 0; i < 30; ++i) {
+      const double angle = 2.03 * i;
+      const auto one = followed(1, angle, 0, treatment), other = followed(3.3, angle, 0, treatment),
+                 shifted = followed(1, angle, 7.7, treatment);
+      REQUIRE(other.size() == one.size());
+      REQUIRE(shifted.size() == one.size());
+      for (std::size_t k = 0; k < one.size(); ++k) {
+        CHECK(other[k].to == one[k].to);
+        CHECK(shifted[k].to == one[k].to);
+      }
+    }
+  }
+}
+
 TEST_CASE("a patch follows its own part of the body only", "[plugins][hexagonal]") {
   // Cut along a line 1e-6 above the lattice: what the upper part has of the row_height below is a sliver,
   // right above good elements of the other part.
