@@ -1,5 +1,6 @@
 #include "diagnosis/diagnosis.hpp"
 
+#include "scene/tables.hpp"
 #include "simulation/time_step.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@ namespace talus {
 namespace {
 
 constexpr double deep = 0.01;      ///< share of the width, of an overlap that is no small one any more
-constexpr double restless = 0.4;   ///< of the bound of contacts and supports, see StepVote
 constexpr std::size_t around = 2;  ///< steps shown to either side of one of interest
 
 DiagnosedStep look_at(const Simulation& simulation) {
@@ -66,12 +66,13 @@ void advise_on_step(const Scene& scene, const CriticalStep& bound, std::vector<s
     advice.push_back(
         fmt::format("/time/dt is {:.3g} times the stable step: take \"auto\", or less than {:.3g} s",
                     *scene.time.dt / bound.dt, bound.dt));
-  } else if (*scene.time.dt > restless * bound.spring_dt) {
+  } else if (*scene.time.dt > table::safety_with_contact * bound.spring_dt) {
     advice.push_back(
         fmt::format("/time/dt is {:.2g} of the bound of contacts and supports, above {} they gain or lose "
                     "energy: take \"auto\", "
                     "or less than {:.3g} s",
-                    *scene.time.dt / bound.spring_dt, restless, restless * bound.spring_dt));
+                    *scene.time.dt / bound.spring_dt, table::safety_with_contact,
+                    table::safety_with_contact * bound.spring_dt));
   }
 }
 

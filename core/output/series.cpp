@@ -1,5 +1,6 @@
 #include "output/series.hpp"
 
+#include "geometry/printable.hpp"
 #include "output/input_error.hpp"
 #include "output/whole_file.hpp"
 
@@ -40,12 +41,6 @@ std::vector<std::string> split(std::string_view line, const Position& position) 
   }
   if (quoted) fail(position, "a quotation mark is not closed");
   return fields;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 double number_of(std::string_view field, const Position& position) {

@@ -15,14 +15,11 @@ bool acts(const VectorFunction& function) {
   return !function[0].zero() || !function[1].zero();
 }
 
-bool drives(const Support& support) {
-  return support.x.value_or(0) != 0 || support.y.value_or(0) != 0 || support.rotation.value_or(0) != 0;
-}
-
 bool moves_something(const StageSettings& settings) {
   return settings.gravity.x != 0 || settings.gravity.y != 0 || acts(settings.base_acceleration) ||
          !settings.loads.empty() || !settings.surface_loads.empty() || !settings.prescribed.empty() ||
-         std::any_of(settings.supports.begin(), settings.supports.end(), drives);
+         std::any_of(settings.supports.begin(), settings.supports.end(),
+                     [](const Support& support) { return support.drives(); });
 }
 
 void review_motion(const Scene& scene, std::vector<std::string>& raised) {

@@ -1,5 +1,6 @@
 #include "scene/columns.hpp"
 
+#include "geometry/printable.hpp"
 #include "output/whole_file.hpp"
 #include "scene/files.hpp"
 #include "scene/nearest.hpp"
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_bytes = 100'000'000;
 constexpr std::size_t most_columns = 1000, most_heads = 100;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// At most one more than there may be.
 std::vector<std::string_view> fields_of(std::string_view line) {

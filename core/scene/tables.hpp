@@ -147,6 +147,7 @@ inline constexpr Parameter stage[] = {
     number("from", "s", required, above_zero, unbounded, "Time from which its values hold."),
 };
 
+/// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
 inline constexpr double safety_with_contact = 0.4;
 
 inline constexpr Parameter time[] = {

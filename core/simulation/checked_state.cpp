@@ -1,4 +1,5 @@
 #include "contact/thin_ground.hpp"
+#include "scene/tables.hpp"
 #include "simulation/state.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +13,6 @@ namespace talus {
 namespace {
 
 constexpr double warn_residual = 0.01;  ///< of the energy throughput
-/// Of the critical step of contacts and supports: above it a bounce gains or loses a tenth of its speed.
-constexpr double lively = 0.4;
 /// A contact this deep at t = 0, as a share of the smaller width, throws bodies apart that were not settled.
 constexpr double initial_overlap = 1e-6;
 /// Share of its width that a body moves while it settles only if it was drawn elsewhere than it rests.
@@ -216,12 +215,12 @@ void Simulation::State::warn_of_large_step() {
     summary.warnings.push_back(
         fmt::format("the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): the run may blow up",
                     plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical)));
-  } else if (plan.dt > lively * critical.spring_dt) {
+  } else if (plan.dt > table::safety_with_contact * critical.spring_dt) {
     summary.warnings.push_back(fmt::format(
         "the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s of contacts and supports alone (body "
         "'{}'); above {} of it contacts gain or lose energy",
         plan.dt, plan.dt / critical.spring_dt, critical.spring_dt, scene.bodies[critical.spring_body].name,
-        lively));
+        table::safety_with_contact));
   }
 }
 

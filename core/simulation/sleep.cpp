@@ -23,10 +23,6 @@ bool varies_in_time(const VectorFunction& functions) {
   return varies_in_time(functions[0]) || varies_in_time(functions[1]);
 }
 
-bool drives(const Support& support) {
-  return support.x.value_or(0) != 0 || support.y.value_or(0) != 0 || support.rotation.value_or(0) != 0;
-}
-
 double squared_speed(const Model& model, const Body& body, Vec2 velocity, const Matrix2& rate) {
   double largest = 0;
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
@@ -61,7 +57,7 @@ void Sleep::exempt(const StageSettings& stage) {
     awake_until_[body] = std::max(awake_until_[body], time);
   };
   for (std::uint32_t b = 0; b < stage.supports.size(); ++b) {
-    if (drives(stage.supports[b])) until(b, never);
+    if (stage.supports[b].drives()) until(b, never);
   }
   for (const PointLoad& load : stage.loads) {
     if (varies_in_time(load.force)) until(load.body, never);
