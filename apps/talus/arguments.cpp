@@ -1,6 +1,6 @@
 #include "arguments.hpp"
 
-#include "scene/nearest.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
 

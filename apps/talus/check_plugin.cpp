@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "conformance/check_components.hpp"
 #include "exit_code.hpp"
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "plugin/refusal.hpp"
 #include "scene_options.hpp"
 

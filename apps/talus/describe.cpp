@@ -1,9 +1,9 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "plugin/refusal.hpp"
-#include "scene/nearest.hpp"
 #include "scene_options.hpp"
 #include "schema/lookup.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

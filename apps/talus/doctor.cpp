@@ -2,10 +2,10 @@
 #include "commands.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "exit_code.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "kept_run.hpp"
-#include "output/input_error.hpp"
 #include "output/series.hpp"
-#include "output/whole_file.hpp"
 #include "scene_options.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "scene_options.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
 

@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "files/hash.hpp"
 #include "kept_run.hpp"
-#include "output/hash.hpp"
 #include "running.hpp"
 #include "scene_options.hpp"
 

@@ -1,9 +1,9 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "output/hash.hpp"
+#include "files/hash.hpp"
+#include "files/whole_file.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
-#include "output/whole_file.hpp"
 #include "running.hpp"
 #include "scene_options.hpp"
 

@@ -3,9 +3,9 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "output/run_record.hpp"
-#include "output/shell_word.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 

@@ -2,17 +2,17 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "files/folder_lock.hpp"
+#include "files/whole_file.hpp"
 #include "interrupt.hpp"
-#include "output/folder_lock.hpp"
 #include "output/output_folder.hpp"
 #include "output/series.hpp"
-#include "output/whole_file.hpp"
 #include "picture/chart.hpp"
 #include "safety/collapse.hpp"
 #include "safety/mechanism.hpp"
-#include "scene/nearest.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "scene_options.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "terminal.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene_options.hpp"
 #include "schema/reference.hpp"
 

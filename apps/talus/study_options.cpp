@@ -1,18 +1,18 @@
 #include "study_options.hpp"
 
+#include "files/folder_lock.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "interrupt.hpp"
-#include "output/folder_lock.hpp"
-#include "output/hash.hpp"
 #include "output/history.hpp"
-#include "output/input_error.hpp"
 #include "output/output_folder.hpp"
-#include "output/shell_word.hpp"
-#include "output/whole_file.hpp"
 #include "progress.hpp"
 #include "scene_options.hpp"
 #include "study/study_charts.hpp"
 #include "study/study_page.hpp"
 #include "terminal.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "output/history.hpp"
 #include "output/run_record.hpp"
 #include "preview_rows.hpp"
-#include "scene/nearest.hpp"
 #include "scene_options.hpp"
 #include "simulation/simulation.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "files/whole_file.hpp"
 #include "interrupt.hpp"
-#include "output/whole_file.hpp"
 #include "progress.hpp"
 #include "scene_options.hpp"
 #include "verification/report.hpp"

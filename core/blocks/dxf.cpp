@@ -1,8 +1,8 @@
 #include "blocks/dxf.hpp"
 
-#include "geometry/printable.hpp"
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
+#include "text/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "checkpoint/archive.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <cstring>
 

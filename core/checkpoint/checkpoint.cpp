@@ -1,8 +1,8 @@
 #include "checkpoint/checkpoint.hpp"
 
-#include "output/hash.hpp"
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 
 #include <talus/library.hpp>
 

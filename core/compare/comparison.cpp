@@ -1,7 +1,7 @@
 #include "compare/comparison.hpp"
 
+#include "files/input_error.hpp"
 #include "output/history.hpp"
-#include "output/input_error.hpp"
 
 #include <fmt/format.h>
 

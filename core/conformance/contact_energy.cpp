@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus::conformance {
 namespace {
@@ -96,9 +97,8 @@ std::vector<Setup> setups() {
 }
 
 Values with_friction(double angle) {
-  return with(
-      undamped_interface(),
-      {{"friction_angle", angle}, {"friction_coefficient", std::tan(angle * 3.14159265358979323846 / 180)}});
+  return with(undamped_interface(), {{"friction_angle", angle},
+                                     {"friction_coefficient", std::tan(angle * std::numbers::pi / 180)}});
 }
 
 /// What a contact has stored is there as it ends and begins, too.

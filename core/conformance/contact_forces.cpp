@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus::conformance {
 namespace {
@@ -272,7 +273,7 @@ void check_friction_limit(const Subject& subject, Trial& trial) {
   }
   const double rounded = 1e-15 * scale_of(subject);
   for (const double angle : {0.0, 5.0, 25.0, 45.0}) {
-    const double mu = std::tan(angle * 3.14159265358979323846 / 180);
+    const double mu = std::tan(angle * std::numbers::pi / 180);
     const Values interface = with(
         lively_interface(),
         {{"friction_angle", angle}, {"friction_coefficient", mu}, {"cohesion", 0}, {"tensile_strength", 0}});

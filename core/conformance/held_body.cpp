@@ -3,11 +3,12 @@
 #include "geometry/polygon.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace talus::conformance {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 Vec2 times(const Matrix2& m, Vec2 p) {
   return {m.xx * p.x + m.xy * p.y, m.yx * p.x + m.yy * p.y};

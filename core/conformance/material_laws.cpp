@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus::conformance {
 namespace {
@@ -16,7 +17,7 @@ constexpr double strains[] = {1e-5, 1e-3, 0.02};
 std::vector<Tensor> round_trip(double strain, int steps) {
   std::vector<Tensor> path;
   for (int i = 1; i <= steps; ++i) {
-    const double t = 2 * 3.14159265358979323846 * i / steps, swing = strain * (1 - std::cos(t));
+    const double t = 2 * std::numbers::pi * i / steps, swing = strain * (1 - std::cos(t));
     const Tensor stretch{1 + strain * std::sin(t), swing / 2, 0, 1 - swing / 3};
     path.push_back(product(rotation(strain * t), stretch));
   }

@@ -14,12 +14,6 @@ double cross(Point origin, Point p, Point q) {
   return (p.x - origin.x) * (q.y - origin.y) - (p.y - origin.y) * (q.x - origin.x);
 }
 
-double length(const Line& line, bool closed) {
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) sum += distance(line[i], line[i + 1]);
-  return closed ? sum + distance(line.back(), line.front()) : sum;
-}
-
 void append(const Line& line, std::vector<double>& x, std::vector<double>& y,
             std::vector<std::uint32_t>& start) {
   for (const Point p : line) {
@@ -79,12 +73,6 @@ DrawnBody DrawnBody::meshed_square(std::uint32_t parts) {
     }
   }
   return body;
-}
-
-double DrawnBody::outline_length() const {
-  double sum = 0;
-  for (const Line& ring : rings) sum += length(ring, true);
-  return sum;
 }
 
 double DrawnBody::extent() const {
@@ -158,14 +146,6 @@ std::size_t RecordedCover::parts() const {
   return count;
 }
 
-double RecordedCover::boundary_length() const {
-  double sum = 0;
-  for (const auto& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) sum += distance(loop[i].at, loop[(i + 1) % loop.size()].at);
-  }
-  return sum;
-}
-
 bool is_in(const std::vector<Line>& rings, Point at) {
   bool inside = false;
   for (const Line& ring : rings) {
@@ -215,10 +195,6 @@ double distance_from_segment(Point p, Point start, Point end) {
   return distance(p, {start.x + t * dx, start.y + t * dy});
 }
 
-bool segments_cross(Point p, Point q, Point r, Point s) {
-  return cross(p, q, r) * cross(p, q, s) <= 0 && cross(r, s, p) * cross(r, s, q) <= 0;
-}
-
 Line regular_polygon(int corners, double radius, Point centre, double angle) {
   Line ring;
   for (int i = 0; i < corners; ++i) {
@@ -226,11 +202,6 @@ Line regular_polygon(int corners, double radius, Point centre, double angle) {
     ring.push_back({centre.x + radius * std::cos(at), centre.y + radius * std::sin(at)});
   }
   return ring;
-}
-
-Line reversed(Line line) {
-  std::reverse(line.begin(), line.end());
-  return line;
 }
 
 std::vector<Line> turned(std::vector<Line> lines, double angle) {

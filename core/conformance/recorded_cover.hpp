@@ -25,7 +25,6 @@ class DrawnBody {
 
   BodyShape shape() const;
   Point centroid() const { return centroid_; }  ///< in the coordinates it was drawn in
-  double outline_length() const;
   double extent() const;
 
   std::vector<Line> rings, lines;  ///< about the centroid
@@ -72,7 +71,6 @@ class RecordedCover final : public CoverSink {
   std::array<double, 3> weights(std::uint32_t element, Point at) const;
   std::vector<double> row_sums() const;  ///< [patch] ∫ w dA, m²
   std::size_t parts() const;             ///< pieces of the body that share no patch
-  double boundary_length() const;
 
   std::vector<Point> stars;
   std::vector<Element> elements;
@@ -90,11 +88,9 @@ bool is_in(const std::vector<Line>& rings, Point at);
 AreaMoments moments_of(const std::vector<Line>& rings);
 double distance(Point p, Point q);
 double distance_from_segment(Point p, Point start, Point end);
-bool segments_cross(Point p, Point q, Point r, Point s);
 
 /// A regular polygon, counter-clockwise; the first corner lies at `angle`, rad.
 Line regular_polygon(int corners, double radius, Point centre = {0, 0}, double angle = 0);
-Line reversed(Line line);
 std::vector<Line> turned(std::vector<Line> lines, double angle);
 
 }  // namespace talus::conformance

@@ -1,8 +1,8 @@
 #include "conformance/check_components.hpp"
 
-#include "output/escaped.hpp"
 #include "plugin/refusal.hpp"
 #include "report/html_page.hpp"
+#include "text/escaped.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "conformance/check_components.hpp"
 
-#include "output/escaped.hpp"
+#include "text/escaped.hpp"
 
 #include <fmt/format.h>
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace talus::conformance {
 namespace {
 
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 
 /// What keys of the common vocabulary are measured in. A law that gives one of them another unit means
 /// something else by it.

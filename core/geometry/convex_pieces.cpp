@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace talus {
@@ -88,7 +89,7 @@ Hit first_ahead(const RingSet& region, Place from, Vec2 along) {
 Place that_faces(const RingSet& region, Place corner, Vec2 along) {
   const auto angle = [](Vec2 from, Vec2 to) {
     const double turned = std::atan2(cross(from, to), from.x * to.x + from.y * to.y);
-    return turned < 0 ? turned + 2 * std::acos(-1.0) : turned;
+    return turned < 0 ? turned + 2 * std::numbers::pi : turned;
   };
   const ConvexPiece& ring = region[corner.ring];
   const Vec2 at = ring[corner.corner].at, back{-along.x, -along.y};

@@ -1,9 +1,9 @@
 #include "geometry/gmsh.hpp"
 
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "geometry/gmsh_file.hpp"
 #include "geometry/polygon.hpp"
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

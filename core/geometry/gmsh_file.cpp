@@ -1,7 +1,7 @@
 #include "geometry/gmsh_file.hpp"
 
-#include "geometry/printable.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
+#include "text/printable.hpp"
 
 #include <fmt/format.h>
 

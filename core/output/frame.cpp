@@ -1,8 +1,8 @@
 #include "output/frame.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/triangulate.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "output/history.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/quantity.hpp"
-#include "scene/nearest.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

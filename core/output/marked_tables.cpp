@@ -1,7 +1,7 @@
 #include "output/marked_tables.hpp"
 
-#include "output/input_error.hpp"
-#include "scene/nearest.hpp"
+#include "files/input_error.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "output/output_folder.hpp"
 
 #include "checkpoint/checkpoint.hpp"
-#include "output/folder_lock.hpp"
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
+#include "files/folder_lock.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

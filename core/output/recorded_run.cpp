@@ -1,10 +1,10 @@
 #include "output/recorded_run.hpp"
 
-#include "output/folder_lock.hpp"
+#include "files/folder_lock.hpp"
+#include "files/whole_file.hpp"
 #include "output/recorder.hpp"
 #include "output/run_keeper.hpp"
 #include "output/run_record.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 

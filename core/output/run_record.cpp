@@ -1,6 +1,6 @@
 #include "output/run_record.hpp"
 
-#include "output/hash.hpp"
+#include "files/hash.hpp"
 #include "output/machine.hpp"
 
 #include <fmt/format.h>

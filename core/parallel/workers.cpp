@@ -1,6 +1,6 @@
 #include "parallel/workers.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "parallel/subnormals.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "geometry/vec2.hpp"
 #include "picture/svg.hpp"
-#include "scene/vec2.hpp"
 
 #include <vector>
 

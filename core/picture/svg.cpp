@@ -1,6 +1,6 @@
 #include "picture/svg.hpp"
 
-#include "output/escaped.hpp"
+#include "text/escaped.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "plugin/refusal.hpp"
 
-#include "geometry/printable.hpp"
+#include "text/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "plugin/descriptor_in_file.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "plugin/refusal.hpp"
 
 #include <elf.h>

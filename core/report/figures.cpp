@@ -1,8 +1,8 @@
 #include "report/figures.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/series.hpp"
-#include "output/whole_file.hpp"
 #include "picture/chart.hpp"
 #include "picture/palette.hpp"
 #include "picture/section.hpp"

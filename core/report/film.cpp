@@ -1,6 +1,6 @@
 #include "report/film.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "report/frames.hpp"
 
-#include "output/input_error.hpp"
-#include "output/whole_file.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "report/html_page.hpp"
 
-#include "output/escaped.hpp"
 #include "report/assets.hpp"
+#include "text/escaped.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,15 @@
 #include "report/report.hpp"
 
-#include "output/escaped.hpp"
-#include "output/input_error.hpp"
-#include "output/shell_word.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/vtu.hpp"
-#include "output/whole_file.hpp"
 #include "plugin/registry.hpp"
 #include "report/assets.hpp"
 #include "report/curves.hpp"
 #include "report/film.hpp"
 #include "report/html_page.hpp"
+#include "text/escaped.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

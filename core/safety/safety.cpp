@@ -1,8 +1,8 @@
 #include "safety/safety.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "safety/collapse.hpp"
-#include "scene/nearest.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 #include "scene/columns.hpp"
 
-#include "geometry/printable.hpp"
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene/files.hpp"
-#include "scene/nearest.hpp"
-#include "scene/plain_number.hpp"
 #include "scene/section.hpp"
+#include "text/nearest.hpp"
+#include "text/plain_number.hpp"
+#include "text/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "scene/components.hpp"
 
 #include "plugin/refusal.hpp"
-#include "scene/nearest.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "scene/contact.hpp"
 
 #include "scene/components.hpp"
-#include "scene/nearest.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

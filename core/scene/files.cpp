@@ -1,6 +1,6 @@
 #include "scene/files.hpp"
 
-#include "output/hash.hpp"
+#include "files/hash.hpp"
 
 #include <system_error>
 

@@ -1,8 +1,8 @@
 #include "scene/interfaces.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/surfaces.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

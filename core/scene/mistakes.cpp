@@ -1,7 +1,7 @@
 #include "scene/mistakes.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/positions.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "scene/monitors.hpp"
 
 #include "output/quantity.hpp"
-#include "scene/nearest.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "scene/overrides.hpp"
 
-#include "scene/nearest.hpp"
-#include "scene/plain_number.hpp"
 #include "scene/section.hpp"
+#include "text/nearest.hpp"
+#include "text/plain_number.hpp"
 
 #include <fmt/format.h>
 

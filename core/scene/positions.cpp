@@ -1,7 +1,7 @@
 #include "scene/positions.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/syntax.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "scene/read.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene/blocks.hpp"
 #include "scene/bodies.hpp"
 #include "scene/contact.hpp"

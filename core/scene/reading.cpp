@@ -1,8 +1,8 @@
 #include "scene/reading.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/polygons.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "geometry/vec2.hpp"
 #include "plugin/registry.hpp"
 #include "scene/function.hpp"
-#include "scene/vec2.hpp"
 
 #include <array>
 #include <cstdint>

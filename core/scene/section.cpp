@@ -1,7 +1,7 @@
 #include "scene/section.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/parameter_text.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

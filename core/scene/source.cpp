@@ -1,6 +1,6 @@
 #include "scene/source.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene/mistakes.hpp"
 #include "scene/positions.hpp"
 

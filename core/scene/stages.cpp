@@ -1,8 +1,8 @@
 #include "scene/stages.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/overrides.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "scene/timing.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/tables.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "output/hash.hpp"
+#include "files/hash.hpp"
 #include "simulation/state.hpp"
 
 namespace talus {

@@ -24,7 +24,8 @@ BodyForce difference(const BodyForce& p, const BodyForce& q) {
 
 }  // namespace
 
-double Relaxation::damping(const Damping& how, const Model& model, const MotionState& motion, double dt) {
+double Relaxation::damping(const Damping& how, const Model& model, const PatchMass& mass,
+                           const MotionState& motion, double dt) {
   if (how.kind != Damping::Kind::adaptive) {
     last_forces_.clear();  // they would be those of long ago
     return how.kind == Damping::Kind::constant ? how.constant : 0;
@@ -43,7 +44,7 @@ double Relaxation::damping(const Damping& how, const Model& model, const MotionS
                    last = last_patch_forces_[ranges.patch_begin + i];
         stiffness -= (now.x - last.x) * velocity[i].x + (now.y - last.y) * velocity[i].y;
       }
-      inertia += mass_.product(model, b, velocity, velocity);
+      inertia += mass.product(model, b, velocity, velocity);
       continue;
     }
     const BodyMotion& moved = motion.bodies[b];
@@ -70,8 +71,8 @@ void Relaxation::remember_velocities(const MotionState& motion) {
   former_patch_velocity_ = motion.patch_velocity;
 }
 
-double Relaxation::take_velocities(const Model& model, const StepConditions& conditions,
-                                   MotionState& motion) const {
+double Relaxation::take_velocities(const Model& model, const PatchMass& mass,
+                                   const StepConditions& conditions, MotionState& motion) const {
   const double share = share_of_after(conditions);
   double taken = 0;
   std::vector<Vec2> at_step;
@@ -92,7 +93,7 @@ double Relaxation::take_velocities(const Model& model, const StepConditions& con
         Vec2& after = motion.patch_velocity[p];
         at_step.push_back({divide(before.x, after.x), divide(before.y, after.y)});
       }
-      taken += mass_.product(model, b, at_step, at_step) / 2;
+      taken += mass.product(model, b, at_step, at_step) / 2;
       continue;
     }
     const BodyMotion& before = former_motion_[b];
@@ -112,7 +113,7 @@ void Relaxation::forget() {
   last_kinetic_ = 0;
 }
 
-double Relaxation::unbalanced(const Model& model, const MotionState& motion,
+double Relaxation::unbalanced(const Model& model, const PatchMass& mass, const MotionState& motion,
                               std::span<const Support> supports, Vec2 gravity) const {
   double sum = 0;
   std::vector<Vec2> acceleration = motion.patch_force;
@@ -122,11 +123,11 @@ double Relaxation::unbalanced(const Model& model, const MotionState& motion,
     if (body.kinematics == Kinematics::fixed) continue;
     const Support& support = support_of(supports, b);
     if (body.kinematics == Kinematics::covered) {
-      mass_.accelerations(model, b, acceleration);
+      mass.accelerations(model, b, acceleration);
       const std::span<Vec2> own(acceleration.data() + ranges.patch_begin,
                                 ranges.patch_end - ranges.patch_begin);
       for (Vec2& of_patch : own) of_patch = {of_patch.x + gravity.x, of_patch.y + gravity.y};
-      leave_out_supported(model, mass_, b, support, motion, own);
+      leave_out_supported(model, mass, b, support, motion, own);
       for (std::size_t i = 0; i < own.size(); ++i)
         sum += model.patch_mass[ranges.patch_begin + i] * size_of(own[i]);
       continue;

@@ -16,11 +16,10 @@ namespace talus {
 /// velocities taken away at each peak of the kinetic energy.
 class Relaxation {
  public:
-  explicit Relaxation(const Model& model) : mass_(model) {}
-
   /// Global damping for the coming step, 1/s. Adaptive: 2ω with ω² = −v·Δf / (Δt v·M v), the Rayleigh
   /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step.
-  double damping(const Damping& how, const Model& model, const MotionState& motion, double dt);
+  double damping(const Damping& how, const Model& model, const PatchMass& mass, const MotionState& motion,
+                 double dt);
 
   /// Kinetic damping: whether the kinetic energy, J/m, has passed a peak, so that velocities are to be taken.
   /// `gone` of it went with bodies that fell asleep since.
@@ -31,21 +30,21 @@ class Relaxation {
   /// After it takes v_n from all bodies and leaves them what the forces at t_n make of rest, as at the start
   /// of a run: with v₊ = 0 a mode would go on from further off than it is, by 1/√(1 − (ωΔt/2)²). Returns
   /// ½ v_n·M v_n, J/m, which is what goes.
-  double take_velocities(const Model& model, const StepConditions& conditions, MotionState& motion) const;
+  double take_velocities(const Model& model, const PatchMass& mass, const StepConditions& conditions,
+                         MotionState& motion) const;
 
   /// The motion so far has nothing to do with what comes.
   void forget();
 
   /// Sum of the magnitudes of the forces that accelerate bodies and patches, N/m, without what supports
   /// carry; for a body that moves as a whole, its resultant and its moments over its width.
-  double unbalanced(const Model& model, const MotionState& motion, std::span<const Support> supports,
-                    Vec2 gravity) const;
+  double unbalanced(const Model& model, const PatchMass& mass, const MotionState& motion,
+                    std::span<const Support> supports, Vec2 gravity) const;
   void exchange(Archive& archive);
 
   static double weight(const Model& model, Vec2 gravity);
 
  private:
-  PatchMass mass_;
   std::vector<BodyForce> last_forces_;
   std::vector<Vec2> last_patch_forces_;
   double last_kinetic_ = 0;

@@ -1,8 +1,8 @@
 #include "simulation/simulation.hpp"
 
+#include "files/hash.hpp"
 #include "model/distinct_points.hpp"
 #include "model/fragments.hpp"
-#include "output/hash.hpp"
 #include "output/quantity.hpp"
 #include "parallel/subnormals.hpp"
 #include "simulation/state.hpp"

@@ -1,6 +1,6 @@
 #include "simulation/state.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/quantity.hpp"
 #include "parallel/large_pages.hpp"
 
@@ -50,7 +50,6 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
                contacts_are_seen(scene, model, settings)),
       deformation(scene, model, workers),
       loads(scene, stage, model),
-      relaxation(model),
       votes(scene, stage, model, contacts),
       critical(votes.anyhow()),
       patch_velocity_at_step(model.patch_star.size()),
@@ -129,10 +128,10 @@ void Simulation::State::forces() {
   profile.enter(Phase::materials);
   if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
-    const double unbalanced = relaxation.unbalanced(model, motion, stage.supports, pull);
+    const double unbalanced = relaxation.unbalanced(model, mass, motion, stage.supports, pull);
     unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
   }
-  const double damping = relaxation.damping(how, model, motion, dt_behind);
+  const double damping = relaxation.damping(how, model, mass, motion, dt_behind);
   if (stage_begins) {
     take_velocities_at_stage();
     velocities_at_stage = {};  // not until the next stage
@@ -403,7 +402,7 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
 
 /// Takes all velocities at t_n but those that supports drive.
 void Simulation::State::stop(const StepConditions& conditions) {
-  double taken = relaxation.take_velocities(model, conditions, motion);
+  double taken = relaxation.take_velocities(model, mass, conditions, motion);
   std::vector<Vec2> left;
   for (std::uint32_t i = 0; i < model.bodies.size() && !settling; ++i) {
     const Support& support = support_of(stage.supports, i);

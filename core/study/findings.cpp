@@ -1,7 +1,7 @@
 #include "study/findings.hpp"
 
 #include "compare/deviation.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "simulation/simulation.hpp"
 #include "study/orders.hpp"
 

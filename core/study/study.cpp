@@ -1,12 +1,12 @@
 #include "study/study.hpp"
 
-#include "output/hash.hpp"
-#include "output/input_error.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/machine.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
 #include "output/run_record.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include "study/study_page.hpp"
 
-#include "output/escaped.hpp"
 #include "report/html_page.hpp"
 #include "study/study_charts.hpp"
+#include "text/escaped.hpp"
 
 #include <fmt/format.h>
 

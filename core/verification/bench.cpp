@@ -1,6 +1,6 @@
 #include "verification/bench.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-#include "output/input_error.hpp"
-#include "scene/nearest.hpp"
+#include "files/input_error.hpp"
+#include "text/nearest.hpp"
 #include "verification/case.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "verification/report.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/marked_tables.hpp"
 
 #include <fmt/format.h>

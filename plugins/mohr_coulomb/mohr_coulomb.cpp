@@ -5,6 +5,7 @@
 #include <talus/library.hpp>
 
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 namespace {
@@ -145,7 +146,7 @@ class MohrCoulomb final : public Material {
 
  private:
   static Strength checked(const Strength& strength) {
-    constexpr double degrees = 180 / 3.14159265358979323846;
+    constexpr double degrees = 180 / std::numbers::pi;
     char words[200];
     if (strength.dilation_angle > strength.friction_angle) {
       std::snprintf(

@@ -1,6 +1,6 @@
 #include "program.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <nlohmann/json.hpp>
 

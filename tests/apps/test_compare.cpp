@@ -1,6 +1,6 @@
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
 #include "output/series.hpp"
-#include "output/whole_file.hpp"
 #include "program.hpp"
 
 #include <catch2/catch.hpp>

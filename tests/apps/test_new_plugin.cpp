@@ -1,5 +1,5 @@
+#include "files/whole_file.hpp"
 #include "installation.hpp"
-#include "output/whole_file.hpp"
 
 #include <catch2/catch.hpp>
 

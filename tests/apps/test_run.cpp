@@ -1,7 +1,7 @@
-#include "output/hash.hpp"
+#include "files/hash.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
 #include "output/series.hpp"
-#include "output/whole_file.hpp"
 #include "program.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
+#include "files/whole_file.hpp"
 #include "installation.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 #include "program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "apps/program.hpp"
-#include "output/folder_lock.hpp"
+#include "files/folder_lock.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

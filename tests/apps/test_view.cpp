@@ -1,5 +1,5 @@
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 #include "program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "blocks/dxf.hpp"
 
 #include "blocks/generator.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/scratch.hpp"
 #include "scene/sample.hpp"
 

@@ -1,9 +1,9 @@
 #include "checkpoint/archive.hpp"
 #include "checkpoint/checkpoint.hpp"
-#include "output/hash.hpp"
-#include "output/input_error.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>

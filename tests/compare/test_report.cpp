@@ -1,5 +1,5 @@
 #include "compare/report.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

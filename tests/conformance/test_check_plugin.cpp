@@ -1,6 +1,6 @@
 #include "apps/program.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 
 #include <catch2/catch.hpp>
 

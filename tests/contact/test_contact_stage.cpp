@@ -1,5 +1,5 @@
 #include "contact/contact_stage.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/working_scene.hpp"

@@ -1,6 +1,6 @@
+#include "files/whole_file.hpp"
 #include "limited.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "checkpoint/archive.hpp"
 #include "checkpoint/checkpoint.hpp"
-#include "output/hash.hpp"
-#include "output/input_error.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
 
 #include <fmt/format.h>
 

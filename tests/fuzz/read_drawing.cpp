@@ -1,7 +1,7 @@
 #include "targets.hpp"
 
 #include "blocks/dxf.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include "targets.hpp"
 
+#include "files/input_error.hpp"
 #include "geometry/gmsh.hpp"
 #include "geometry/polygon.hpp"
-#include "output/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>

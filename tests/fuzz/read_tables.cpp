@@ -1,6 +1,6 @@
 #include "targets.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/series.hpp"
 #include "scene/columns.hpp"
 

@@ -1,4 +1,4 @@
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "targets.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
+#include "files/input_error.hpp"
 #include "geometry/gmsh.hpp"
 #include "geometry/polygon.hpp"
-#include "output/input_error.hpp"
 #include "output/scratch.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
+#include "files/whole_file.hpp"
 #include "output/history.hpp"
 #include "output/quantity.hpp"
-#include "output/whole_file.hpp"
 #include "scratch.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/series.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/scratch.hpp"
 #include "output/vtu.hpp"
 #include "report/frames.hpp"

@@ -1,10 +1,10 @@
 #include "report/report.hpp"
 
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/frame.hpp"
-#include "output/input_error.hpp"
 #include "output/recorded_run.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 #include "report/film.hpp"
 #include "simulation/working_scene.hpp"
 

@@ -1,7 +1,7 @@
 #include "safety/safety.hpp"
 
 #include "figures/runs.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "safety/mechanism.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "schema/json_schema.hpp"
 
 #include "apps/program.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 #include "scene/sample.hpp"
 #include "schema/reference.hpp"
 

@@ -1,7 +1,7 @@
 #include "study/findings.hpp"
 #include "study/orders.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "simulation/simulation.hpp"
 #include "study/sample_runs.hpp"
 #include "study/study_charts.hpp"

@@ -1,6 +1,6 @@
 #include "study/plan.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <catch2/catch.hpp>
 

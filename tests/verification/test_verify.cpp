@@ -1,8 +1,8 @@
 #include "apps/program.hpp"
 #include "figures/runs.hpp"
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/scratch.hpp"
-#include "output/whole_file.hpp"
 #include "verification/report.hpp"
 
 #include <catch2/catch.hpp>

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace talus::covered {
@@ -21,6 +22,34 @@ RecordedCover lay(const DrawnBody& body, const Settings& settings) {
   RecordedCover cover;
   builder->build(body.shape(), cover);
   return cover;
+}
+
+double outline_length(const DrawnBody& body) {
+  double sum = 0;
+  for (const Line& ring : body.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) sum += distance(ring[i], ring[(i + 1) % ring.size()]);
+  }
+  return sum;
+}
+
+double boundary_length(const RecordedCover& cover) {
+  double sum = 0;
+  for (const auto& loop : cover.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) sum += distance(loop[i].at, loop[(i + 1) % loop.size()].at);
+  }
+  return sum;
+}
+
+bool segments_cross(Point p, Point q, Point r, Point s) {
+  const auto side = [](Point from, Point to, Point at) {
+    return (to.x - from.x) * (at.y - from.y) - (to.y - from.y) * (at.x - from.x);
+  };
+  return side(p, q, r) * side(p, q, s) <= 0 && side(r, s, p) * side(r, s, q) <= 0;
+}
+
+Line reversed(Line line) {
+  std::reverse(line.begin(), line.end());
+  return line;
 }
 
 }  // namespace talus::covered

@@ -18,6 +18,11 @@ struct Settings {
 
 RecordedCover lay(const DrawnBody& body, const Settings& settings);
 
+double outline_length(const DrawnBody& body);
+double boundary_length(const RecordedCover& cover);
+bool segments_cross(Point p, Point q, Point r, Point s);
+Line reversed(Line line);
+
 /// Everything that holds for any cover of any body. What is on a line in the cover may be off that line by
 /// `snap` sizes; the finest tolerance of the lattice is 2e-9 of the size.
 void check_cover(const DrawnBody& body, const RecordedCover& cover, double size, double snap = 1e-8);

@@ -37,8 +37,8 @@ void check_counts(const std::vector<Line>& rings, const std::vector<Line>& lines
       CHECK(cover.stars.size() == expected.patches);
       CHECK(cover.loops.size() == expected.loops);
       CHECK(cover.parts() == expected.parts);
-      CHECK(cover.boundary_length() / scale ==
-            Approx(body.outline_length() / scale + expected.cut_length).epsilon(1e-8));
+      CHECK(boundary_length(cover) / scale ==
+            Approx(outline_length(body) / scale + expected.cut_length).epsilon(1e-8));
       check_cover(body, cover, scale);
     }
   }
@@ -156,7 +156,7 @@ TEST_CASE("a hole that shares a part of a side with the outline is a notch", "[p
     CHECK(cover.elements.size() == same.elements.size());
     CHECK(cover.stars.size() == same.stars.size());
     CHECK(cover.loops.size() == 1);
-    CHECK(cover.boundary_length() == Approx(notched.outline_length()));
+    CHECK(boundary_length(cover) == Approx(outline_length(notched)));
   }
 }
 

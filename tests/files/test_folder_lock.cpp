@@ -1,6 +1,6 @@
-#include "output/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 #include "output/output_folder.hpp"
 #include "output/scratch.hpp"
 
@@ -8,7 +8,7 @@
 
 using namespace talus;
 
-TEST_CASE("a folder has one writer at a time, and another may follow", "[output]") {
+TEST_CASE("a folder has one writer at a time, and another may follow", "[files]") {
   const Scratch scratch;
   scratch.write("history.csv", "t [s]\n");
   {

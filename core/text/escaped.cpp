@@ -1,4 +1,4 @@
-#include "output/escaped.hpp"
+#include "text/escaped.hpp"
 
 namespace talus {
 

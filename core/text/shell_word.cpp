@@ -1,4 +1,4 @@
-#include "output/shell_word.hpp"
+#include "text/shell_word.hpp"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <fmt/format.h>
 

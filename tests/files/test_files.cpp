@@ -1,8 +1,7 @@
-#include "output/hash.hpp"
-#include "output/input_error.hpp"
-#include "output/output_folder.hpp"
-#include "output/whole_file.hpp"
-#include "scratch.hpp"
+#include "files/hash.hpp"
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
+#include "output/scratch.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +12,7 @@
 using namespace talus;
 using Catch::Matchers::Contains;
 
-TEST_CASE("hashes are those of xxh128sum", "[output][hash]") {
+TEST_CASE("hashes are those of xxh128sum", "[files][hash]") {
   CHECK(hash_of_bytes("") == "99aa06d3014798d86001c324468d497f");
   const Scratch scratch;
   CHECK(hash_of_file(scratch.write("empty", "")) == hash_of_bytes(""));
@@ -21,7 +20,7 @@ TEST_CASE("hashes are those of xxh128sum", "[output][hash]") {
   CHECK(hash_of_bytes("a") != hash_of_bytes("b"));
 }
 
-TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "[output][files]") {
+TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "[files]") {
   const Scratch scratch;
   write_whole_file(scratch / "run.json", "first, and long");
   write_whole_file(scratch / "run.json", "second");
@@ -32,7 +31,7 @@ TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "
   CHECK_THROWS_AS(read_whole_file(scratch.folder()), std::system_error);
 }
 
-TEST_CASE("links are followed, and what is no file is written into", "[output][files]") {
+TEST_CASE("links are followed, and what is no file is written into", "[files]") {
   const Scratch scratch;
   scratch.write("kept.svg", "old");
   std::filesystem::create_symlink("kept.svg", scratch / "link.svg");
@@ -60,32 +59,4 @@ TEST_CASE("links are followed, and what is no file is written into", "[output][f
   CHECK_THROWS_WITH(write_whole_file(scratch / "loop", ""), Contains("cannot write") && Contains("loop"));
   CHECK_THROWS_WITH(write_whole_file(scratch.folder(), ""), Contains("directory"));
   CHECK_FALSE(std::filesystem::exists(scratch.folder().string() + ".part"));
-}
-
-TEST_CASE("results are not overwritten unasked, other files never", "[output][files]") {
-  const Scratch scratch;
-  const auto folder = scratch / "out/deep";
-  prepare_output_folder(folder, false);
-  CHECK(std::filesystem::is_directory(folder));
-  scratch.write("out/deep/notes.txt", "mine");
-  CHECK_NOTHROW(prepare_output_folder(folder, false));
-  scratch.write("out/deep/history.csv", "t [s]");
-  std::filesystem::create_directory(folder / "frames");
-  scratch.write("out/deep/frames/frame_000007.vtu", "");
-  scratch.write("out/deep/frames/photo.vtu", "");
-  CHECK_THROWS_WITH(prepare_output_folder(folder, false), Contains("--overwrite") && Contains("history.csv"));
-  CHECK(std::filesystem::exists(folder / "history.csv"));
-  prepare_output_folder(folder, true);
-  CHECK_FALSE(std::filesystem::exists(folder / "history.csv"));
-  CHECK_FALSE(std::filesystem::exists(folder / "frames/frame_000007.vtu"));
-  CHECK(std::filesystem::exists(folder / "frames/photo.vtu"));
-  CHECK(read_whole_file(folder / "notes.txt") == "mine");
-  CHECK_THROWS_AS(prepare_output_folder(folder / "notes.txt", true), InputError);
-  scratch.write("out/deep/resolved.json", "{}");
-  CHECK_THROWS_WITH(prepare_output_folder(folder, true, {folder / "notes.txt", folder / "resolved.json"}),
-                    Contains("resolved.json' is read to make the results"));
-  CHECK_THROWS_WITH(prepare_folder_of_runs(folder), Contains("a single run ('resolved.json')"));
-  CHECK(std::filesystem::exists(folder / "resolved.json"));
-  CHECK_NOTHROW(prepare_output_folder(folder, true, {folder / "notes.txt"}));
-  CHECK_NOTHROW(prepare_folder_of_runs(folder));
 }

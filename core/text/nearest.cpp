@@ -1,4 +1,4 @@
-#include "scene/nearest.hpp"
+#include "text/nearest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "output/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 
-#include "output/input_error.hpp"
+#include "files/input_error.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

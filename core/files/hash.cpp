@@ -1,6 +1,6 @@
-#include "output/hash.hpp"
+#include "files/hash.hpp"
 
-#include "output/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,38 @@
+#include "output/output_folder.hpp"
+
+#include "files/input_error.hpp"
+#include "files/whole_file.hpp"
+#include "scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+TEST_CASE("results are not overwritten unasked, other files never", "[output][files]") {
+  const Scratch scratch;
+  const auto folder = scratch / "out/deep";
+  prepare_output_folder(folder, false);
+  CHECK(std::filesystem::is_directory(folder));
+  scratch.write("out/deep/notes.txt", "mine");
+  CHECK_NOTHROW(prepare_output_folder(folder, false));
+  scratch.write("out/deep/history.csv", "t [s]");
+  std::filesystem::create_directory(folder / "frames");
+  scratch.write("out/deep/frames/frame_000007.vtu", "");
+  scratch.write("out/deep/frames/photo.vtu", "");
+  CHECK_THROWS_WITH(prepare_output_folder(folder, false), Contains("--overwrite") && Contains("history.csv"));
+  CHECK(std::filesystem::exists(folder / "history.csv"));
+  prepare_output_folder(folder, true);
+  CHECK_FALSE(std::filesystem::exists(folder / "history.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "frames/frame_000007.vtu"));
+  CHECK(std::filesystem::exists(folder / "frames/photo.vtu"));
+  CHECK(read_whole_file(folder / "notes.txt") == "mine");
+  CHECK_THROWS_AS(prepare_output_folder(folder / "notes.txt", true), InputError);
+  scratch.write("out/deep/resolved.json", "{}");
+  CHECK_THROWS_WITH(prepare_output_folder(folder, true, {folder / "notes.txt", folder / "resolved.json"}),
+                    Contains("resolved.json' is read to make the results"));
+  CHECK_THROWS_WITH(prepare_folder_of_runs(folder), Contains("a single run ('resolved.json')"));
+  CHECK(std::filesystem::exists(folder / "resolved.json"));
+  CHECK_NOTHROW(prepare_output_folder(folder, true, {folder / "notes.txt"}));
+  CHECK_NOTHROW(prepare_folder_of_runs(folder));
+}
