@@ -14,13 +14,33 @@
 namespace talus {
 namespace {
 
-Registry registry_of(const Checkpoint& checkpoint, std::vector<std::filesystem::path> folders) {
+/// Folders of libraries that the run was started with. A checkpoint may come from anybody.
+void refuse_unasked_folders(const Checkpoint& checkpoint,
+                            const std::vector<std::filesystem::path>& searched) {
+  for (const std::filesystem::path& folder : checkpoint.plugin_folders) {
+    const auto same = [&](const std::filesystem::path& other) {
+      std::error_code none;
+      return std::filesystem::equivalent(folder, other, none);
+    };
+    if (!std::filesystem::is_directory(folder) || std::any_of(searched.begin(), searched.end(), same))
+      continue;
+    throw LibrariesNotAllowed(
+        SceneError({{checkpoint.scene_file.string(), 0, 0, "",
+                     fmt::format("the run was started with libraries of {}, which run with "
+                                 "your rights: give --allow-plugins, or --plugin-path {}",
+                                 folder.string(), folder.string())}}));
+  }
+}
+
+Registry registry_of(const Checkpoint& checkpoint, std::vector<std::filesystem::path> folders,
+                     bool allow_plugins) {
   if (checkpoint.simd > best_simd_level()) {
     throw InputError(
         fmt::format("the run was started with {} instructions, this machine has no more than {}: go on where "
                     "it was started",
                     name_of(checkpoint.simd), name_of(best_simd_level())));
   }
+  if (!allow_plugins) refuse_unasked_folders(checkpoint, search_path(folders));
   for (const std::filesystem::path& folder : checkpoint.plugin_folders) {
     if (std::filesystem::is_directory(folder)) folders.push_back(folder);
   }
@@ -91,7 +111,7 @@ std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& give
 KeptRun::KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,
                  const std::vector<std::filesystem::path>& more_plugin_folders, bool allow_plugins,
                  const Log& log)
-    : registry(registry_of(checkpoint, more_plugin_folders)),
+    : registry(registry_of(checkpoint, more_plugin_folders, allow_plugins)),
       simulation(scene_of(checkpoint, registry, allow_plugins, log), settings) {
   if (simulation.model_hash() != checkpoint.model_hash) {
     throw InputError(

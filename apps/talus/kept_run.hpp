@@ -18,8 +18,8 @@ std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& give
 
 /// The simulation of a checkpoint as it was started, and what it points into. Throws InputError where it
 /// would not be the same: another instruction set, library or file that the scene names.
-/// `allow_plugins`: libraries that the scene names by path run with the rights of who goes on, not of who
-/// started it; LibrariesNotAllowed without.
+/// `allow_plugins`: libraries that the scene names by path, or of folders that the run was started with, run
+/// with the rights of who goes on; LibrariesNotAllowed without.
 struct KeptRun {
   KeptRun(const Checkpoint& checkpoint, const RunSettings& settings,
           const std::vector<std::filesystem::path>& more_plugin_folders, bool allow_plugins,

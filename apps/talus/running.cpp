@@ -96,7 +96,9 @@ Log::Fields facts_of(const RunResult& result, const std::filesystem::path& folde
 /// A folder that begins with a dash is no option.
 std::string words_to_resume(const RunOrder& order) {
   const std::string folder = order.folder.string();
-  return fmt::format("talus resume {}{}", order.checkpoints->run.allow_plugins ? "--allow-plugins " : "",
+  const Checkpoint& run = order.checkpoints->run;
+  return fmt::format("talus resume {}{}",
+                     run.allow_plugins || !run.plugin_folders.empty() ? "--allow-plugins " : "",
                      shell_word(folder.starts_with('-') ? "./" + folder : folder));
 }
 

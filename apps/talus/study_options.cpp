@@ -135,6 +135,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   };
   // A scene that is wrong by itself is told at once, and so is a metric that it has not.
   const HeldScene plain = order.read(order.overrides);
+  order.simd = plain.scene.simd;
   for (const std::string& warning : plain.scene.warnings) print_warning(warning);
   const std::string column = column_of(usage, given, plain.scene);
   std::optional<Series> reference;
@@ -142,7 +143,9 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
     reference =
         read_reference_text(read_whole_file(order.reference), order.reference.string(), std::array{column});
   }
-  prepare_folder_of_runs(study.folder);
+  std::vector<std::filesystem::path> read = plain.scene.files_read();
+  read.push_back(order.reference);
+  prepare_folder_of_runs(study.folder, read);
   const FolderLock mine(study.folder);
 
   order.interrupted = watch_for_interrupts();

@@ -16,42 +16,71 @@ double distance(Vec2 point, Vec2 a, Vec2 b) {
   return std::hypot(point.x - a.x - share * dx, point.y - a.y - share * dy);
 }
 
-double distance(Vec2 point, const Loops& loops) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Ring& ring : loops) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      least = std::min(least, distance(point, ring[i], ring[(i + 1) % ring.size()]));
-  }
-  return least;
+bool holds(const Box& box, Vec2 point) {
+  return point.x >= box.low.x && point.x <= box.high.x && point.y >= box.low.y && point.y <= box.high.y;
 }
+
+/// Of a point to the nearest of a box.
+double distance(Vec2 point, const Box& box) {
+  return std::hypot(std::max({box.low.x - point.x, point.x - box.high.x, 0.0}),
+                    std::max({box.low.y - point.y, point.y - box.high.y, 0.0}));
+}
+
+/// A face with boxes around its loops: it may have thousands of them, of which few are near a point.
+struct BoxedFace {
+  const Loops& loops;
+  std::vector<Box> boxes;
+
+  explicit BoxedFace(const Block& face) : loops(face.loops) {
+    for (const Ring& ring : loops) boxes.push_back(box_around(ring));
+  }
+
+  bool has(Vec2 point) const {
+    if (!holds(boxes[0], point) || !contains({loops[0]}, point, 0)) return false;
+    for (std::size_t hole = 1; hole < loops.size(); ++hole) {
+      if (holds(boxes[hole], point) && contains({loops[hole]}, point, 0)) return false;
+    }
+    return true;
+  }
+
+  double gap(Vec2 point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+      const Ring& ring = loops[loop];
+      if (distance(point, boxes[loop]) >= least) continue;
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        least = std::min(least, distance(point, ring[i], ring[(i + 1) % ring.size()]));
+    }
+    return least;
+  }
+};
 
 /// Finds the face that a point lies in, for points from left to right.
 class FacesAlong {
  public:
-  explicit FacesAlong(const std::vector<Block>& faces) : faces_(faces), order_(faces.size()) {
-    for (const Block& face : faces) boxes_.push_back(box_around(face.loops[0]));
+  explicit FacesAlong(const std::vector<Block>& faces) : order_(faces.size()) {
+    for (const Block& face : faces) faces_.emplace_back(face);
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(), [&](std::size_t p, std::size_t q) {
-      return std::pair(boxes_[p].low.x, p) < std::pair(boxes_[q].low.x, q);
+      return std::pair(box_of(p).low.x, p) < std::pair(box_of(q).low.x, q);
     });
   }
 
-  const Block* face_at(Vec2 point) {
-    while (begun_ < order_.size() && boxes_[order_[begun_]].low.x <= point.x)
+  const BoxedFace* face_at(Vec2 point) {
+    while (begun_ < order_.size() && box_of(order_[begun_]).low.x <= point.x)
       open_.push_back(order_[begun_++]);
-    std::erase_if(open_, [&](std::size_t face) { return boxes_[face].high.x < point.x; });
-    const Block* found = nullptr;
+    std::erase_if(open_, [&](std::size_t face) { return box_of(face).high.x < point.x; });
+    const BoxedFace* found = nullptr;
     for (const std::size_t face : open_) {
-      const Box& box = boxes_[face];
-      if (point.y < box.low.y || point.y > box.high.y || (found && found < &faces_[face])) continue;
-      if (contains(faces_[face].loops, point, 0)) found = &faces_[face];
+      if ((found == nullptr || &faces_[face] < found) && faces_[face].has(point)) found = &faces_[face];
     }
     return found;
   }
 
  private:
-  const std::vector<Block>& faces_;
-  std::vector<Box> boxes_;
+  const Box& box_of(std::size_t face) const { return faces_[face].boxes[0]; }
+
+  std::vector<BoxedFace> faces_;
   std::vector<std::size_t> order_, open_;
   std::size_t begun_ = 0;
 };
@@ -73,7 +102,7 @@ std::vector<LooseEnd> loose_ends(const std::vector<Cut>& cuts, const std::vector
   FacesAlong along(faces);
   std::vector<double> gaps(ends.size(), 0);
   for (const std::size_t end : order) {
-    if (const Block* face = along.face_at(ends[end])) gaps[end] = distance(ends[end], face->loops);
+    if (const BoxedFace* face = along.face_at(ends[end])) gaps[end] = face->gap(ends[end]);
   }
   std::vector<LooseEnd> found;
   for (std::size_t i = 0; i < ends.size(); ++i) {

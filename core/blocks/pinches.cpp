@@ -1,24 +1,31 @@
 #include "blocks/pinches.hpp"
 
 #include "blocks/geos.hpp"
+#include "geometry/polygon.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
-#include <tuple>
+#include <stdexcept>
 #include <utility>
 
 namespace talus {
 namespace {
 
-constexpr double share = 0.01;  ///< of the shortest side that meets the point
-
-bool same(Vec2 p, Vec2 q) {
-  return p.x == q.x && p.y == q.y;
-}
+constexpr double share = 0.01;    ///< of the shortest side that meets the point
+constexpr double flattest = 2.9;  ///< rad, of a corner that can be cut off
 
 std::optional<std::size_t> vertex_at(const Ring& ring, Vec2 point) {
-  const auto found = std::find_if(ring.begin(), ring.end(), [&](Vec2 vertex) { return same(vertex, point); });
+  const auto found = std::find_if(ring.begin(), ring.end(),
+                                  [&](Vec2 vertex) { return vertex.x == point.x && vertex.y == point.y; });
   if (found == ring.end()) return std::nullopt;
   return found - ring.begin();
 }
@@ -31,27 +38,37 @@ Vec2 after(const Ring& ring, std::size_t i) {
   return ring[(i + 1) % ring.size()];
 }
 
-/// A ring of another block that has the point, within the hole.
-struct Within {
-  std::size_t block, loop, vertex;
+/// Angle within a ring at a vertex, rad, whichever way round it goes.
+double angle_within(const Ring& ring, std::size_t i) {
+  const Vec2 to = minus(after(ring, i), ring[i]), from = minus(before(ring, i), ring[i]);
+  const double turn = std::atan2(cross(to, from), dot(to, from)),
+               angle = signed_area(ring) > 0 ? turn : -turn;
+  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+}
+
+/// A ring of a block that has the point.
+struct Place {
+  std::size_t block, loop;
 };
 
-/// The corner of a hole at a point, and the line that cuts it off from the point.
-class CutCorner {
+/// What lies on the far side of one loop of a block at a point that it shares with another: the block's
+/// surroundings or what it encloses.
+struct Sector {
+  std::size_t loop;
+  double angle;  ///< rad
+  std::vector<Place> others;
+};
+
+/// The straight line that cuts a corner off from its point.
+class CornerCut {
  public:
-  CutCorner(const Ring& hole, std::size_t vertex, double length)
-      : point_(hole[vertex]),
-        start_(towards(before(hole, vertex), length)),
-        end_(towards(after(hole, vertex), length)) {}
+  CornerCut(const Ring& ring, std::size_t vertex, double length)
+      : point_(ring[vertex]),
+        start_(towards(before(ring, vertex), length)),
+        end_(towards(after(ring, vertex), length)) {}
 
-  /// Where the line crosses the way from the point to a neighbour of it.
-  Vec2 crossing(Vec2 neighbour) const {
-    const Vec2 way = minus(neighbour, point_), line = minus(end_, start_);
-    const double along = cross(minus(start_, point_), line) / cross(way, line);
-    return {point_.x + along * way.x, point_.y + along * way.y};
-  }
-
-  void cut(Ring& ring, std::size_t vertex) const {
+  void apply(Ring& ring) const {
+    const std::size_t vertex = *vertex_at(ring, point_);
     const Vec2 from = crossing(before(ring, vertex)), to = crossing(after(ring, vertex));
     ring[vertex] = from;
     ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(vertex) + 1, to);
@@ -59,51 +76,133 @@ class CutCorner {
 
  private:
   Vec2 towards(Vec2 neighbour, double length) const {
-    const double part = length / size_of(minus(neighbour, point_));
-    return {point_.x + part * (neighbour.x - point_.x), point_.y + part * (neighbour.y - point_.y)};
+    const Vec2 way = minus(neighbour, point_);
+    const double part = length / size_of(way);
+    return {point_.x + part * way.x, point_.y + part * way.y};
+  }
+  /// With the way from the point to a neighbour of it.
+  Vec2 crossing(Vec2 neighbour) const {
+    const Vec2 way = minus(neighbour, point_), line = minus(end_, start_);
+    const double along = cross(minus(start_, point_), line) / cross(way, line);
+    return {point_.x + along * way.x, point_.y + along * way.y};
   }
 
   Vec2 point_, start_, end_;
 };
 
-void cut_corner(std::vector<Block>& blocks, std::size_t around, std::size_t hole, Vec2 point,
-                const Geos& geos) {
-  const Ring ring = blocks[around].loops[hole];
-  const std::size_t corner = *vertex_at(ring, point);
-  double shortest =
-      std::min(size_of(minus(before(ring, corner), point)), size_of(minus(after(ring, corner), point)));
-  std::vector<Within> within;
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    if (block == around) continue;
-    for (std::size_t loop = 0; loop < blocks[block].loops.size(); ++loop) {
-      const Ring& other = blocks[block].loops[loop];
-      const std::optional<std::size_t> vertex = vertex_at(other, point);
-      if (!vertex || !contains({ring}, geos.point_within(blocks[block].loops), 0)) continue;
-      within.push_back({block, loop, *vertex});
-      shortest = std::min({shortest, size_of(minus(before(other, *vertex), point)),
-                           size_of(minus(after(other, *vertex), point))});
+class Bridges {
+ public:
+  Bridges(std::vector<Block>& blocks, const Geos& geos) : blocks_(blocks), geos_(geos) {}
+
+  void bridge(std::size_t block, Vec2 point) {
+    std::vector<Sector> sectors = sectors_at(block, point);
+    // An opening and what lies outside have no corner to give away, and of rock the bluntest stays.
+    const auto stays = std::max_element(sectors.begin(), sectors.end(), [](const Sector& p, const Sector& q) {
+      return std::pair(p.others.empty(), p.angle) < std::pair(q.others.empty(), q.angle);
+    });
+    for (auto sector = sectors.begin(); sector != sectors.end(); ++sector) {
+      if (sector == stays) continue;
+      if (sector->others.empty() || sector->angle > flattest) {
+        throw std::runtime_error(fmt::format(
+            "a block meets itself at ({:.6g}, {:.6g}), where nothing can be cut off between its two "
+            "sides: move what ends there by a little",
+            point.x, point.y));
+      }
+      cut(block, *sector, point);
     }
   }
-  const CutCorner cut(ring, corner, share * shortest);
-  for (const Within& at : within) cut.cut(blocks[at.block].loops[at.loop], at.vertex);
-  cut.cut(blocks[around].loops[hole], corner);
+
+ private:
+  std::vector<Sector> sectors_at(std::size_t block, Vec2 point) const {
+    std::vector<Sector> sectors;
+    const std::vector<Place> others = others_at(block, point);
+    for (std::size_t loop = 0; loop < blocks_[block].loops.size(); ++loop) {
+      const Ring& ring = blocks_[block].loops[loop];
+      const std::optional<std::size_t> vertex = vertex_at(ring, point);
+      if (!vertex) continue;
+      const double within = angle_within(ring, *vertex);
+      Sector sector{loop, loop == 0 ? 2 * std::numbers::pi - within : within, {}};
+      std::copy_if(others.begin(), others.end(), std::back_inserter(sector.others), [&](const Place& other) {
+        return contains({ring}, geos_.point_within(blocks_[other.block].loops), 0) == (loop != 0);
+      });
+      sectors.push_back(std::move(sector));
+    }
+    return sectors;
+  }
+
+  std::vector<Place> others_at(std::size_t block, Vec2 point) const {
+    std::vector<Place> others;
+    for (std::size_t other = 0; other < blocks_.size(); ++other) {
+      for (std::size_t loop = 0; other != block && loop < blocks_[other].loops.size(); ++loop) {
+        if (vertex_at(blocks_[other].loops[loop], point)) others.push_back({other, loop});
+      }
+    }
+    return others;
+  }
+
+  void cut(std::size_t block, const Sector& sector, Vec2 point) {
+    std::vector<Place> places = sector.others;
+    places.push_back({block, sector.loop});
+    double length = std::numeric_limits<double>::infinity();
+    for (const Place& place : places) {
+      const Ring& ring = ring_of(place);
+      const std::size_t vertex = *vertex_at(ring, point);
+      length = std::min({length, share * size_of(minus(before(ring, vertex), point)),
+                         share * size_of(minus(after(ring, vertex), point))});
+    }
+    // Of a block within a block the corner was cut off before.
+    for (const Place& other : sector.others) {
+      for (const Ring& ring : blocks_[other.block].loops) {
+        for (const Vec2 vertex : ring) {
+          const double away = size_of(minus(vertex, point));
+          if (away > 0) length = std::min(length, away / 4);
+        }
+      }
+    }
+    const Ring& ring = ring_of({block, sector.loop});
+    const CornerCut line(ring, *vertex_at(ring, point), length);
+    for (const Place& place : places) line.apply(ring_of(place));
+  }
+
+  Ring& ring_of(const Place& place) { return blocks_[place.block].loops[place.loop]; }
+
+  std::vector<Block>& blocks_;
+  const Geos& geos_;
+};
+
+/// Points that more than one loop of a block has.
+std::vector<Vec2> pinches_of(const Block& block) {
+  std::vector<Vec2> found;
+  if (block.loops.size() == 1) return found;
+  std::map<std::pair<double, double>, std::size_t> loops;
+  for (const Ring& ring : block.loops) {
+    for (const Vec2 vertex : ring) {
+      if (++loops[{vertex.x, vertex.y}] == 2) found.push_back(vertex);
+    }
+  }
+  return found;
 }
 
 }  // namespace
 
 std::vector<Vec2> bridge_pinches(std::vector<Block>& blocks, const Geos& geos) {
-  std::vector<Vec2> bridged;
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    std::set<std::pair<double, double>> seen;
-    for (std::size_t loop = 0; loop < blocks[block].loops.size(); ++loop) {
-      for (const Vec2 vertex : Ring(blocks[block].loops[loop])) {
-        if (seen.emplace(vertex.x, vertex.y).second || loop == 0) continue;
-        cut_corner(blocks, block, loop, vertex, geos);
-        bridged.push_back(vertex);
-      }
+  std::vector<double> outline;
+  for (const Block& block : blocks) outline.push_back(std::abs(signed_area(block.loops[0])));
+  std::vector<std::size_t> order(blocks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // What lies within another comes first.
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t p, std::size_t q) { return outline[p] < outline[q]; });
+  Bridges bridges(blocks, geos);
+  std::vector<Vec2> points;
+  std::set<std::pair<double, double>> told;
+  for (const std::size_t block : order) {
+    for (const Vec2 point : pinches_of(blocks[block])) {
+      bridges.bridge(block, point);
+      if (told.emplace(point.x, point.y).second) points.push_back(point);
     }
   }
-  return bridged;
+  return points;
 }
 
 }  // namespace talus

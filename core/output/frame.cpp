@@ -28,7 +28,8 @@ void refuse_absent(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, none);
   if (none || size == 0)
     throw InputError(
-        fmt::format("'{}' is not what the run left: it is {}", file.string(), none ? "gone" : "empty"));
+        fmt::format("'{}' is not what the run left: it is {}; put it back, or run the scene anew",
+                    file.string(), none ? "gone" : "empty"));
 }
 
 void append(std::vector<double>& values, Vec2 vector) {

@@ -73,12 +73,14 @@ void prepare_output_folder(const fs::path& folder, bool overwrite, const std::ve
   for (const fs::path& file : results) fs::remove(file);
 }
 
-void prepare_folder_of_runs(const fs::path& folder) {
+void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>& read) {
   refuse_file(folder);
   if (const std::vector<fs::path> results = results_in(folder); !results.empty()) {
     throw InputError(fmt::format("'{}' holds results of a single run ('{}'): give --out another folder",
                                  folder.string(), results[0].filename().string()));
   }
+  for (const char* name : {"study.csv", "study.json", "study.svg", "study.html"})
+    refuse_to_remove(folder / name, read);
   fs::create_directories(folder);
 }
 

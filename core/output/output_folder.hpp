@@ -12,8 +12,10 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
                            const std::vector<std::filesystem::path>& read = {});
 
 /// Makes the folder that results of many runs go to, each in a folder of its own. One that holds results of a
-/// single run is refused (InputError).
-void prepare_folder_of_runs(const std::filesystem::path& folder);
+/// single run is refused (InputError), and one where a file of results would take the place of one that was
+/// `read` to make them.
+void prepare_folder_of_runs(const std::filesystem::path& folder,
+                            const std::vector<std::filesystem::path>& read = {});
 
 /// Whether it holds a run that came to its end, as far as its record can be read.
 bool holds_finished_run(const std::filesystem::path& folder);

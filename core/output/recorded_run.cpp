@@ -73,6 +73,19 @@ void step_to_the_end(const Course& course) {
   } while (course.goes_on());
 }
 
+/// The reason comes at the end, where the words of a system_error that is made of these have it once more.
+std::string without_reason(const std::system_error& failure) {
+  const std::string words = failure.what();
+  return words.substr(0, words.rfind(": " + failure.code().message()));
+}
+
+std::string words_of_kept_state(const RunResult& result) {
+  return result.checkpoint.empty()
+             ? ""
+             : fmt::format("; '{}' holds the state at t = {:.6g} s, from which `talus resume` goes on",
+                           result.checkpoint.string(), result.checkpoint_time);
+}
+
 /// Where a file cannot be written, the disk is full perhaps: a state is small, and the time that it took is
 /// not.
 [[noreturn]] void keep_what_there_is(RunKeeper& keeper, const RunResult& result,
@@ -84,12 +97,8 @@ void step_to_the_end(const Course& course) {
     // then an older one may be there
   }
   if (result.checkpoint.empty()) throw failure;
-  const std::string why = failure.code().message();
-  throw std::system_error(
-      failure.code(),
-      fmt::format(
-          "{}; '{}' holds the state at t = {:.6g} s, from which `talus resume` goes on: the reason is",
-          reason.substr(0, reason.rfind(": " + why)), result.checkpoint.string(), result.checkpoint_time));
+  throw std::system_error(failure.code(), fmt::format("{}{}: the reason is", without_reason(failure),
+                                                      words_of_kept_state(result)));
 }
 
 /// The state at which a run ended, and its record.
@@ -149,7 +158,8 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
   } catch (const std::system_error& failure) {
     if (result.trouble.empty()) throw;
     throw std::system_error(failure.code(),
-                            fmt::format("{}; and what is left could not be written", result.trouble));
+                            fmt::format("{}{}; what is left could not be written: {}", result.trouble,
+                                        words_of_kept_state(result), without_reason(failure)));
   }
   if (result.end == RunEnd::finished) keeper.drop();
   return result;

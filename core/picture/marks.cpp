@@ -136,7 +136,7 @@ std::string marks_svg(const std::string& title, const std::string& x_label, cons
   const auto shown = std::count_if(marks.begin(), marks.end(), can_be_shown);
   if (const auto left_out = static_cast<std::ptrdiff_t>(marks.size()) - shown; left_out > 0) {
     svg.text({marks_width - marks_right, 22},
-             fmt::format("{} of {} not drawn: not above 0", left_out, marks.size()), Svg::Anchor::end,
+             fmt::format("{} of {} not drawn: no number above 0", left_out, marks.size()), Svg::Anchor::end,
              palette::faint, 11);
   }
   const PowerAxis x(marks, &Mark::x, marks_left, marks_width - marks_right),

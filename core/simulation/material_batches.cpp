@@ -72,8 +72,9 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
     remembers = remembers || states > 0 || needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
-    Batch& batch = batches_.emplace_back(
-        Batch{std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states), {}});
+    const bool viscous = (choice.component->component->traits & trait::has_potential) != 0;
+    Batch& batch = batches_.emplace_back(Batch{
+        std::move(material), begin, end, needs_previous, viscous, sweeping, std::vector<double>(states), {}});
     for (int k = 0; k < 4 && needs_previous; ++k)
       batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
   }

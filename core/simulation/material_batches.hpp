@@ -42,7 +42,8 @@ class MaterialBatches {
   /// The material of a batch if it takes elements from displacements to forces itself, or null.
   const Material* sweeping(std::uint32_t batch) const { return batches_[batch].sweeping; }
 
-  bool viscous(std::uint32_t batch) const { return batches_[batch].material->viscous_time() > 0; }
+  /// Whether all that is lost in a batch is work of viscous stresses: its material has a potential.
+  bool viscous(std::uint32_t batch) const { return batches_[batch].viscous; }
 
   /// Stress and energies of `count` elements of a batch from the deformation in the buffer. `keep`: for
   /// output. Different elements may be evaluated at once, each with a buffer of its own.
@@ -65,7 +66,7 @@ class MaterialBatches {
   struct Batch {
     Made<Material> material;
     std::uint32_t begin, end;  ///< elements
-    bool needs_previous;
+    bool needs_previous, viscous;
     const Material* sweeping;
     std::vector<double> state;
     std::vector<double> deformation[4];  ///< of t_n, if needs_previous

@@ -82,9 +82,9 @@ Series history_of(const std::filesystem::path& folder, double end) {
   return {};
 }
 
-/// Whether a folder holds a run of something else than is asked for.
+/// Whether a folder holds a run of something else than is asked for, or of another cost.
 bool of_another_study(const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                      const std::string& scene_hash) {
+                      const std::string& scene_hash, SimdLevel simd) {
   if (!std::filesystem::exists(folder / "run.json")) return false;
   const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
   if (!record.is_object()) return false;
@@ -92,7 +92,8 @@ bool of_another_study(const std::filesystem::path& folder, const std::vector<Ove
              settings = record.value("settings", Json::object());
   if (!scene.is_object() || !scene.contains("xxh3_128") || !settings.is_object() || !settings.contains("set"))
     return false;
-  return scene["xxh3_128"] != scene_hash || settings["set"] != set_of(overrides);
+  return scene["xxh3_128"] != scene_hash || settings["set"] != set_of(overrides) ||
+         !costs_alike(record, simd);
 }
 
 /// What the folder of a run tells, if it is the run that is asked for, with these libraries.
@@ -168,10 +169,11 @@ class Runs {
   void refuse_other_runs() const {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const std::filesystem::path folder = order_.folder / folder_name(i, 0);
-      if (of_another_study(folder, overrides_of(i), order_.scene_hash))
+      if (of_another_study(folder, overrides_of(i), order_.scene_hash, order_.simd))
         throw InputError(fmt::format(
-            "'{}' holds a run with other values or of another scene: give --overwrite to replace what it was "
-            "made for, or --out another folder",
+            "'{}' holds a run with other values, of another scene, or with other instructions or on another "
+            "processor, whose cost tells nothing here: give --overwrite to replace what it was made for, or "
+            "--out another folder",
             folder.string()));
     }
   }

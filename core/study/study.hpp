@@ -39,6 +39,7 @@ struct StudyOrder {
   StudyPlan plan;
   std::vector<Override> overrides;  ///< common to all runs
   std::string scene_hash;
+  SimdLevel simd = SimdLevel::scalar;
   int threads = 1;                  ///< runs at a time, one thread each
   std::filesystem::path reference;  ///< that no run may replace; empty: none
   bool overwrite = false;           ///< other runs that the folder holds

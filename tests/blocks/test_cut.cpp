@@ -173,6 +173,47 @@ TEST_CASE("a block that meets itself at a point gets one simple boundary, and no
   CHECK(halves == 2);  // each half has lost its foot
 }
 
+TEST_CASE("of corners that meet at a point the sharper one is cut off, however the drawing is turned",
+          "[blocks]") {
+  // About the middle of the square a tip that points at it from the left and, from the right: a notch around
+  // it, and a straight side.
+  using Line = std::vector<Vec2>;
+  const Line tip{{0, 0}, {-0.3, 0.1}, {-0.3, -0.1}, {0, 0}};
+  const Line notch{{0, 0}, {-0.2, 0.3}, {0.3, 0.3}, {0.3, -0.3}, {-0.2, -0.3}, {0, 0}};
+  const Line straight{{0, 0}, {0, 0.3}, {0.3, 0.3}, {0.3, -0.3}, {0, -0.3}, {0, 0}};
+  for (const Line& other : {notch, straight}) {
+    const double area = signed_area(Ring(other.begin(), other.end() - 1));
+    for (int turns = 0; turns < 4; ++turns) {
+      INFO(turns);
+      const auto drawn = [&](const Line& line) {
+        std::string points;
+        for (Vec2 p : line) {
+          for (int i = 0; i < turns; ++i) p = {-p.y, p.x};
+          points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", 0.5 + p.x, 0.5 + p.y);
+        }
+        return fmt::format(R"({{"points": [{}]}})", points);
+      };
+      const auto bodies = made(fmt::format(R"("joints": [{}, {}])", drawn(tip), drawn(other)));
+      REQUIRE(bodies.size() == 3);
+      CHECK(area_sum(bodies) == Approx(1).epsilon(rounding));
+      const auto whole = [&](const SceneBody& body) {
+        return std::abs(area_of(body) - std::abs(area)) < 1e-12;
+      };
+      CHECK(std::count_if(bodies.begin(), bodies.end(), whole) == 1);
+    }
+  }
+}
+
+TEST_CASE("an opening keeps its corner, and a block within a block gives way twice", "[blocks]") {
+  const auto open = made(R"("holes": [[[0.5, 0.5], [0.2, 0.6], [0.2, 0.4]]],
+                            "joints": [{"points": [[0.5, 0.5], [0.9, 0.4], [0.9, 0.6], [0.5, 0.5]]}])");
+  CHECK(area_sum(open) == Approx(0.97).epsilon(rounding));
+  const auto nested = made(R"("joints": [{"points": [[0.5, 0], [0.9, 0.6], [0.1, 0.6], [0.5, 0]]},
+                              {"points": [[0.5, 0], [0.6, 0.4], [0.4, 0.4], [0.5, 0]]}])");
+  CHECK(nested.size() == 3);
+  CHECK(area_sum(nested) == Approx(1).epsilon(rounding));
+}
+
 TEST_CASE("slivers between joints that all but coincide are merged", "[blocks]") {
   const auto bodies =
       made(R"("joints": [{"points": [[0, 0.5], [1, 0.5]]}, {"points": [[0, 0.5], [1, 0.500000001]]}])");

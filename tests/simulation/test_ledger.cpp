@@ -61,3 +61,21 @@ TEST_CASE("the balance of a viscous body under a sudden load closes to second or
     CHECK(fine < coarse / 3);
   }
 }
+
+TEST_CASE("a trace of viscosity leaves the balance of a plastic body as it is", "[simulation][ledger]") {
+  const auto largest_share = [](double damping_time) {
+    WorkingScene text;
+    text.material = fmt::format(
+        R"("density": 2300, "model": "mohr_coulomb", "young_modulus": 1e9, "poisson_ratio": 0.25,
+           "friction_angle": 20, "cohesion": 1e4, "damping_time": {})",
+        damping_time);
+    text.bodies =
+        box("base", -2, -1, 2, 0, R"("fixed": true)") + "," +
+        box("a", 0, 0, 1, 1, R"("cover": {"model": "hexagonal", "size": 0.5}, "velocity": [0, -2])");
+    text.time = R"({"end": 0.02, "dt": 1e-5})";
+    const Simulation simulation = run_to_end(text);
+    CHECK(simulation.ledger().material_loss > 0);
+    return simulation.summary().largest_residual_share;
+  };
+  CHECK(largest_share(1e-12) == Approx(largest_share(0)).epsilon(1e-3));
+}

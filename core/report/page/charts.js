@@ -16,21 +16,27 @@ function before(times, time) {
   return low;
 }
 
-/** Rows over all times that any of the curves has. */
+/** Rows over all times that any of the curves has; of the others what their lines pass through there. */
 function merged(curves) {
-  const rows = new Map();
-  curves.forEach((curve, column) =>
-    curve.time.forEach((time, i) => {
-      if (!rows.has(time)) rows.set(time, new Array(curves.length + 1).fill(null));
-      rows.get(time)[column + 1] = curve.values[i];
-    }),
-  );
-  return [...rows.entries()]
-    .sort((p, q) => p[0] - q[0])
-    .map(([time, row]) => {
-      row[0] = time;
-      return row;
+  const times = [...new Set(curves.flatMap((curve) => curve.time))].sort((p, q) => p - q);
+  const rows = times.map((time) => [time]);
+  curves.forEach((curve, column) => {
+    let next = 0;
+    times.forEach((time, i) => {
+      while (next < curve.time.length && curve.time[next] < time) ++next;
+      rows[i][column + 1] = onLine(curve, next, time);
     });
+  });
+  return rows;
+}
+
+/** Value of a curve at a time, of which `next` is the entry at it or after; null beyond its ends and in gaps. */
+function onLine({time, values}, next, at) {
+  if (next === time.length) return null;
+  if (time[next] === at) return values[next];
+  if (next === 0 || values[next - 1] === null || values[next] === null) return null;
+  const share = (at - time[next - 1]) / (time[next] - time[next - 1]);
+  return (1 - share) * values[next - 1] + share * values[next];
 }
 
 const charts = [];
