@@ -8,7 +8,7 @@ namespace talus {
 
 namespace {
 
-constexpr double too_soft = 0.1, needlessly_stiff = 10;  ///< E/h
+constexpr double too_soft = 0.1, may_flutter = 1, needlessly_stiff = 10;  ///< E/h
 constexpr double rounding = 1e-9;
 
 std::string in_bytes(double bytes) {
@@ -53,6 +53,15 @@ void print_stiffness(const Scene& scene, const Preview& foreseen) {
   }
 }
 
+void print_flutter(const Preview& foreseen) {
+  if (!foreseen.stiffest || foreseen.stiffest->stilling == 0) return;
+  if (!(foreseen.stiffest->share() > may_flutter * (1 + rounding))) return;
+  print_row("",
+            fmt::format("with friction and no damping_time: what slides may flutter, and be braked less than "
+                        "its friction; a damping_time of about {:.1g} s stills it",
+                        foreseen.stiffest->stilling));
+}
+
 void print_cost(const Scene& scene, const Preview& foreseen) {
   std::string steps = fmt::format("about {:.0f} of {:.6g} s", foreseen.steps, foreseen.dt);
   if (scene.settle) steps += fmt::format(", and up to {:.0f} to settle", foreseen.settle_steps);
@@ -77,6 +86,7 @@ void print_row(const std::string& label, const std::string& words) {
 void print_preview(const Scene& scene, const Preview& foreseen) {
   print_start(scene, foreseen);
   print_stiffness(scene, foreseen);
+  print_flutter(foreseen);
   print_cost(scene, foreseen);
   const std::string frames =
       scene.output.frames ? fmt::format("{} frames every {:.6g} s", foreseen.frames, *scene.output.frames)

@@ -102,9 +102,12 @@ class CornerFinder {
                                            std::vector<CornerContact>& found) {
     const std::uint32_t v = contact.vertex;
     const Point at = own.at(v), outward = vertex.outward();
+    // A strip knows one side of its corner. At right angles to what it stands on, rounding would have it
+    // stand on the far side of the other body instead.
+    const double looks_away = own.is_strip() ? 0.1 : 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < other.size(); ++k) {
-      if (!other.real(k) || dot(outward, other.normal(k)) >= 0) continue;
+      if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
       const double depth = other.depth(k, at);
       if (depth <= 0 && depth <= -bond_reach) return;
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.

@@ -152,12 +152,17 @@ class VertexEdge final : public ContactModel {
     drop_repeated(work.found);
   }
 
-  /// A vertex on the cut between two pieces of a concave body stands on one of them only.
+  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep.
   static void drop_repeated(std::vector<CornerContact>& found) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const auto same = [&](const CornerContact& other) { return other.key == found[i].key; };
-      if (std::none_of(found.begin(), found.begin() + kept, same)) found[kept++] = found[i];
+    for (const CornerContact& contact : found) {
+      const auto same = [&](const CornerContact& other) { return other.key == contact.key; };
+      const auto before = std::find_if(found.begin(), found.begin() + kept, same);
+      if (before == found.begin() + kept) {
+        found[kept++] = contact;
+      } else if (contact.depth < before->depth) {
+        *before = contact;
+      }
     }
     found.resize(kept);
   }

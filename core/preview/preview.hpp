@@ -17,6 +17,7 @@ struct StiffnessShare {
   double stiffness;    ///< Pa/m
   double young;        ///< Pa, E
   double width;        ///< m, h: smallest width of the body, or size of its elements where that is less
+  double stilling;  ///< s, a damping_time that stills what flutters with friction; 0: none, or damped already
 
   double share() const { return stiffness * width / young; }
 };

@@ -3,6 +3,9 @@
 #include "scene/components.hpp"
 #include "scene/surfaces.hpp"
 
+#include <talus/material.hpp>
+
+#include <cmath>
 #include <set>
 #include <span>
 #include <string_view>
@@ -19,6 +22,21 @@ std::optional<double> young_of(const Scene& scene, const SceneBody& body) {
   const Component& component = *model.component->component;
   const auto young = position_of({component.parameters, component.parameter_count}, "young_modulus");
   return young ? std::optional(model.values[*young]) : std::nullopt;
+}
+
+bool has_friction(const Component& law, const std::vector<double>& values) {
+  const std::span<const Parameter> table{law.interface_parameters, law.interface_parameter_count};
+  for (const char* key : {"friction_angle", "friction_coefficient"}) {
+    if (const auto friction = position_of(table, key); friction && values[*friction] > 0) return true;
+  }
+  return false;
+}
+
+/// About half of the time that a wave takes across a body: it damps the modes that friction excites by half.
+double stilling_time(const Scene& scene, const SceneBody& body, double young, double width) {
+  const SceneMaterial& material = scene.materials[body.material];
+  if (make<Material>(*material.model.component, material.model.values)->viscous_time() > 0) return 0;
+  return width * std::sqrt(material.density / young) / 2;
 }
 
 std::set<std::uint32_t> classes_of_boundary(const SceneBody& body) {
@@ -46,8 +64,12 @@ void compare_stiffness(const Simulation& simulation, Preview& preview) {
       for (std::size_t other = 0; other < count; ++other) {
         if (!meet[own * count + other]) continue;
         const std::size_t row = scene.interface_row[own * count + other];
-        const StiffnessShare share{row, body, scene.interface_values[row][*stiffness], *young,
-                                   simulation.body_width(body)};
+        const double width = simulation.body_width(body);
+        const double stilling = has_friction(law, scene.interface_values[row])
+                                    ? stilling_time(scene, scene.bodies[body], *young, width)
+                                    : 0;
+        const StiffnessShare share{row,    body,  scene.interface_values[row][*stiffness],
+                                   *young, width, stilling};
         if (!preview.softest || share.share() < preview.softest->share()) preview.softest = share;
         if (!preview.stiffest || share.share() > preview.stiffest->share()) preview.stiffest = share;
       }

@@ -201,6 +201,13 @@ TEST_CASE("validate tells stiffness that is out of proportion, covers of many el
   const std::string stiff = told({rock, "/cover/model=block", "/interfaces/0/normal_stiffness=1e12"});
   CHECK_THAT(stiff,
              Contains("stiff, which costs steps; 10 E/h is 1e+10 Pa/m") && !Contains("soft, bodies sink"));
+  // Half of a metre over the speed of a bar's wave, 707 m/s.
+  const std::string flutters = "a damping_time of about 0.0007 s stills it";
+  CHECK_THAT(stiff, Contains(flutters));
+  CHECK_THAT(soft, !Contains("flutter"));
+  CHECK_THAT(told({rock, "/materials/rock/damping_time=1e-3", "/cover/model=block",
+                   "/interfaces/0/normal_stiffness=1e12"}),
+             !Contains("flutter"));
   const std::string covered =
       told({rock, R"(/cover={"model": "hexagonal", "size": 0.4})",
             R"(/stages=[{"name": "dry", "from": 0.1, "set": {"/gravity": [0, -9]}}])"});

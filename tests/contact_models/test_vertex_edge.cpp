@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace talus;
@@ -315,4 +316,63 @@ TEST_CASE("Concave bodies stand on the corners where cuts end", "[vertex_edge]")
   const double sunk = simulation.body_motion(1).displacement.y * (upside_down ? 1 : -1);
   CHECK(sunk > 0);
   CHECK(sunk < 2e-4);
+}
+
+TEST_CASE("A block slides over the joint between two bodies of many elements", "[vertex_edge]") {
+  const char* const offset = GENERATE("0.03", "0.07", "0.11");
+  INFO(offset);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -9.81]";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 2e8, "poisson_ratio": 0.25, "damping_time": 1e-3)";
+  text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 10,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  const std::string lattice = R"("fix": ["x", "y", "rotation"], "cover": {"model": "hexagonal", "size": 0.22,
+                                 "angle": 3, "offset_x": )" +
+                              std::string(offset) + "}";
+  text.bodies = box("left", 0, 0, 1.7, 0.5, lattice) + "," + box("right", 1.7, 0, 4, 0.5, lattice) + "," +
+                box("block", 0.3, 0.5, 1.3, 1, R"("velocity": [2, 0])");
+  text.rest = R"("settle": {"duration": 1, "damping": 100},)";
+  text.time = R"({"end": 0.4})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.body_motion(2).displacement.x > 0.6);
+  CHECK(simulation.summary().largest_penetration < 2e-3);
+  CHECK(simulation.summary().largest_residual_share < 0.01);
+}
+
+TEST_CASE("Jagged bodies of many elements meet alike in the mirror", "[vertex_edge]") {
+  const auto speed_after = [](bool mirrored) {
+    const auto polygon = [&](std::vector<Vec2> ring) {
+      if (mirrored) std::reverse(ring.begin(), ring.end());
+      std::string points;
+      for (const Vec2 p : ring)
+        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", mirrored ? -p.x : p.x, p.y);
+      return points;
+    };
+    const double sign = mirrored ? -1 : 1;
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0.25)";
+    text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 0,
+                        "normal_damping": 0, "tangential_damping": 0)";
+    text.bodies = fmt::format(
+        R"({{"name": "a", "material": "rock", "polygon": [{}],
+             "cover": {{"model": "hexagonal", "size": 0.3, "offset_x": {}, "angle": {}}}}},
+           {{"name": "b", "material": "rock", "polygon": [{}], "velocity": [{}, -3],
+             "cover": {{"model": "hexagonal", "size": 0.25, "offset_y": 0.02, "angle": {}}}}})",
+        polygon({{0, 0}, {2, 0}, {2, 1}, {1.4, 1}, {1.2, 0.7}, {0.8, 0.7}, {0.6, 1}, {0, 1}}), 0.03 * sign,
+        11 * sign,
+        polygon({{0.3, 1.12}, {0.6, 1.05}, {0.9, 1.15}, {1.2, 1.03}, {1.5, 1.12}, {1.5, 1.9}, {0.3, 1.9}}),
+        sign, 31 * sign);
+    text.rest = R"("limits": {"energy_residual": 1},)";
+    text.time = R"({"end": 0.05, "dt": 4e-5})";
+    const Vec2 velocity = run_to_end(text).body_motion(1).velocity;
+    return Vec2{sign * velocity.x, velocity.y};
+  };
+  const Vec2 drawn = speed_after(false), mirrored = speed_after(true);
+  CHECK(drawn.y > -3);  // they have met
+  CHECK(mirrored.x == Approx(drawn.x).epsilon(1e-6));
+  CHECK(mirrored.y == Approx(drawn.y).epsilon(1e-6));
 }

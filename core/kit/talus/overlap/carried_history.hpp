@@ -81,11 +81,12 @@ class CarriedHistory {
   }
 
   static void add(double share, const FrictionHistory& old, FrictionHistory& now) {
+    // Whether it slips is for the longest to say: one that ends beside another does not reset it.
+    if (share * old.contact_length >= now.contact_length) now.slip = old.slip;
     now.elastic += share * old.elastic;
     now.applied += share * old.applied;
     now.stored += share * old.stored;
     now.contact_length += share * old.contact_length;
-    now.slip = old.slip;
   }
 
   /// Whether a contact takes over from one of before: the two could be the same, and neither has a nearer one
