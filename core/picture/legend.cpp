@@ -11,12 +11,12 @@ constexpr double sample = 22, gap = 6, letter_width = 7.2, apart = 12;
 
 }  // namespace
 
-Legend::Legend(std::vector<LegendEntry> entries, double left, double right, double first_row)
+Legend::Legend(std::vector<LegendEntry> entries, double begin, double end, double first_row)
     : entries_(std::move(entries)) {
-  Spot at{left, first_row};
+  Spot at{begin, first_row};
   for (const LegendEntry& entry : entries_) {
     const double wide = sample + gap + letter_width * static_cast<double>(entry.label.size()) + apart;
-    if (at.x > left && at.x + wide > right) at = {left, at.y + row};
+    if (at.x > begin && at.x + wide > end) at = {begin, at.y + row};
     places_.push_back(at);
     at.x += wide;
   }

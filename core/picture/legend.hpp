@@ -19,7 +19,7 @@ class Legend {
   static constexpr double row = 18,
                           below = 14;  ///< height of a row; from the last to the edge of the picture
 
-  Legend(std::vector<LegendEntry> entries, double left, double right, double first_row);
+  Legend(std::vector<LegendEntry> entries, double begin, double end, double first_row);
 
   double height() const { return height_; }  ///< of a picture that holds it
   void draw(Svg& svg) const;

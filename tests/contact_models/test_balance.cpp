@@ -185,8 +185,8 @@ TEST_CASE("What contacts report is the force on the second body and its moment",
     CHECK(loaded > 50);
     CHECK(force < 1e-9);
     // m, of bodies of a metre that are a millimetre deep: where pressures of several sides meet at a corner,
-    // the distributed laws tell the place by their sizes.
-    CHECK(moment < (law == "potential_symmetric" ? 1e-9 : 1e-4));
+    // the distributed laws tell the place by their sizes, to less than the depth.
+    CHECK(moment < (law == "potential_symmetric" ? 1e-9 : 1e-3));
   }
 }
 
