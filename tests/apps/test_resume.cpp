@@ -213,6 +213,25 @@ TEST_CASE("a scene from a pipe runs, and leaves no state that nobody can go on f
   CHECK_THAT(call.err, Contains("leaves no checkpoint: write the scene to a file"));
 }
 
+TEST_CASE("every command reads its scene once, and so from a pipe", "[apps]") {
+  const Scratch scratch;
+  const std::filesystem::path pipe = scratch / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"validate", "pipe"},
+        {"blocks", "pipe"},
+        {"view", "pipe", "-o", "scene.svg"},
+        {"compare", "pipe", "--vary", "/time/dt=1e-4,2e-4", "--quiet"},
+        {"study", "pipe", "--vary", "/time/dt=1e-4,2e-4", "--quiet"}}) {
+    INFO(words[0]);
+    std::thread writer([&] { std::ofstream(pipe) << small_scene(); });
+    const Call call = call_talus(scratch.folder(), words);
+    writer.join();
+    INFO(call.err);
+    CHECK(call.code == 0);
+  }
+}
+
 TEST_CASE("doctor says which step was the first bad one and what to change", "[apps][doctor]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());
@@ -312,6 +331,26 @@ TEST_CASE("resume and doctor load libraries that the scene names when they are a
   REQUIRE(call_talus(scratch.folder(), stopped).code == 4);
   CHECK(call_talus(scratch.folder(), {"doctor", "stopped"}).code == 3);
   CHECK(call_talus(scratch.folder(), {"doctor", "stopped", "--allow-plugins"}).code == 0);
+}
+
+TEST_CASE("resume looks into no folder of plugins that only its checkpoint names", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  std::filesystem::create_directory(scratch / "mine");
+  const Call broken =
+      call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0", "--plugin-path", "mine"}));
+  REQUIRE(broken.code == 130);
+  CHECK_THAT(broken.err, Contains("`talus resume --allow-plugins broken` goes on"));
+  const std::vector<std::string> words{"resume", "broken", "--wall-time", "0"};
+  const Call refused = call_talus(scratch.folder(), words);
+  CHECK(refused.code == 3);
+  CHECK_THAT(refused.err, Contains("mine") && Contains("--plugin-path"));
+  for (const std::vector<std::string>& leave :
+       {std::vector<std::string>{"--allow-plugins"}, {"--plugin-path", "mine"}}) {
+    std::vector<std::string> allowed = words;
+    allowed.insert(allowed.end(), leave.begin(), leave.end());
+    CHECK(call_talus(scratch.folder(), allowed).code == 130);
+  }
 }
 
 TEST_CASE("The words that go on with a run can be given to a shell as they are", "[apps][resume]") {

@@ -2,6 +2,7 @@
 #include "files/folder_lock.hpp"
 #include "files/whole_file.hpp"
 #include "output/scratch.hpp"
+#include "plugin/simd_level.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -130,6 +131,32 @@ TEST_CASE("A study refuses what it cannot measure", "[apps][study]") {
   CHECK(read_whole_file(scratch / "other/run_0001/history.csv") == history);
   others.emplace_back("--overwrite");
   CHECK(call_talus(scratch.folder(), others).code == 0);
+  // Other instructions give the same bits at another cost.
+  std::vector<std::string> scalar = words;
+  scalar[3] = "/time/dt=2e-4";
+  scalar.insert(scalar.end(), {"--simd", "scalar"});
+  if (best_simd_level() != SimdLevel::scalar)
+    CHECK_THAT(call_talus(scratch.folder(), scalar).err, Contains("with other instructions"));
   scratch.write("other/run.json", "{}");
   CHECK_THAT(call_talus(scratch.folder(), words).err, Contains("results of a single run ('run.json')"));
+}
+
+TEST_CASE("A study replaces neither its scene nor its reference", "[apps][study]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "mine");
+  scratch.write("mine/study.json", small_scene());
+  scratch.write("small.json", small_scene());
+  const std::string reference = "t [s],block.speed [m/s]\n0,0\n10,1\n";
+  scratch.write("mine/study.csv", reference);
+  const Call scene =
+      call_talus(scratch.folder(), {"study", "mine/study.json", "--vary", "/time/dt=1e-4", "--out", "mine"});
+  CHECK(scene.code == 2);
+  CHECK_THAT(scene.err, Contains("is read to make the results that would replace it"));
+  CHECK(read_whole_file(scratch / "mine/study.json") == small_scene());
+  const Call curve =
+      call_talus(scratch.folder(), {"study", "small.json", "--vary", "/time/dt=1e-4", "--metric",
+                                    "block.speed", "--reference", "mine/study.csv", "--out", "mine"});
+  CHECK(curve.code == 2);
+  CHECK_THAT(curve.err, Contains("is read to make the results that would replace it"));
+  CHECK(read_whole_file(scratch / "mine/study.csv") == reference);
 }
