@@ -253,3 +253,28 @@ TEST_CASE("motion that dies away ends in 0, not in subnormal numbers", "[simulat
 }
 
 #endif
+
+TEST_CASE("a block that sticks rests: dashpots do not move the place of its friction", "[simulation]") {
+  // A dam of 20 m, which friction of 50 degrees holds with a factor of 1.69 against water on its face.
+  const std::string law = GENERATE("overlap_area", "cohesive_overlap");
+  INFO(law);
+  WorkingScene text;
+  text.gravity = "[0, -9.81]";
+  text.law = law;
+  text.material =
+      R"("density": 2400, "model": "linear_elastic", "young_modulus": 2.5e10, "poisson_ratio": 0.2)";
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 50,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.bodies = box("ground", -20, -10, 40, 0, R"("fixed": true)") + R"(,
+      {"name": "dam", "material": "rock", "polygon": [[0, 0], [16, 0], [4, 15], [4, 20], [0, 20]],
+       "cover": {"model": "block"}, "surfaces": {"face": [4], "base": [0]}})";
+  text.rest = R"("settle": {"duration": 2, "damping": "adaptive", "until": 1e-4}, "surface_loads": [
+      {"body": "dam", "surface": "face", "traction": [{"scale": 9810, "y": [[0, 19], [19, 0]]}, 0]},
+      {"body": "dam", "surface": "base", "traction": [0, {"scale": 9810, "x": [[0, 19], [16, 0]]}]}],)";
+  text.time = R"({"end": 3})";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  while (simulation.advance()) {
+  }
+  CHECK(std::abs(simulation.body_motion(1).displacement.x) < 1e-6);
+}

@@ -260,8 +260,12 @@ class DistributedContact {
     const double size = length(normal_on_b_);
     const Point normal = size > 0 ? (1 / size) * normal_on_b_ : cells_[0].normal;
     tangent_ = {-normal.y, normal.x};
-    for (Cell& cell : cells_)
+    for (Cell& cell : cells_) {
       cell.pressed = std::max(0.0, dot(on_slave(cell, normal), cell.normal)) * cell.load;
+      cell.pressed_at = cell.foot;
+      cell.shear = cell.interface.friction * cell.pressed;
+      cell.shear_at = cell.foot;
+    }
   }
 
   Point normal_of_contact() const { return {tangent_.y, -tangent_.x}; }  ///< on body b
@@ -339,9 +343,7 @@ class DistributedContact {
         }
       }
       cell.pressed = std::max(0.0, pressed);
-      // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
-      // the strain of a sliding block.
-      if (pressed > 0) cell.foot = master.point_at(cell.side, std::clamp(on_end / pressed, 0.0, 1.0));
+      if (pressed > 0) cell.pressed_at = master.point_at(cell.side, std::clamp(on_end / pressed, 0.0, 1.0));
     }
   }
 
@@ -372,12 +374,13 @@ class DistributedContact {
       damping += cell.interface.tangential_damping * cell.pressed;
     }
     const double old_stored = history.stored, old_applied = history.applied;
+    place_friction(history.slip != 0, limit);
     if (!(limit > 0) || contact_length_ == 0) {
       report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
       history = {0, 0, 0, contact_length_, history.x, history.y, 0, history.strips};
       return {0, 0};
     }
-    if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(limit, batch.dt);
+    if (law.rule() == FrictionRule::return_mapping) measure_slip_of_loads(batch.dt);
     const FrictionInput input{stiffness / load * contact_length_,
                               batch.hold_stick ? std::numeric_limits<double>::infinity() : limit,
                               contact_length_, slip_increment_};
@@ -396,15 +399,28 @@ class DistributedContact {
       report.damping_force += static_cast<float>(std::abs(dashpot));
     }
     for (const Cell& cell : cells_) {
-      const double part = force * cell.interface.friction * cell.pressed / limit;
-      if (part != 0) tangential_loads(sink, cell, part);
+      if (cell.shear != 0) tangential_loads(sink, cell, force * cell.shear);
     }
     return force * tangent_;
   }
 
+  /// While a contact slips, friction acts where spring and dashpot press together: at the foot of the spring
+  /// alone it would feed the strain of a sliding block. While it sticks it owes nothing to the dashpot, and
+  /// acts where the spring presses: at a foot that follows the rate of closing it would feed the strain of a
+  /// block at rest.
+  void place_friction(bool slipped, double limit) {
+    double sum = 0;
+    for (const Cell& cell : cells_) sum += cell.shear;
+    const bool all = slipped || !(sum > 0);
+    for (Cell& cell : cells_) {
+      cell.shear = all ? (limit > 0 ? cell.interface.friction * cell.pressed / limit : 0) : cell.shear / sum;
+      if (all) cell.shear_at = cell.pressed_at;
+    }
+  }
+
   /// The slip that the tangential loads work through: of the bodies at the points where they act, by their
   /// shares. With the mean over the arcs (Eq. 38) a body that strains would gain or lose energy in friction.
-  void measure_slip_of_loads(double limit, double dt) {
+  void measure_slip_of_loads(double dt) {
     double velocity = 0;
     for (const Cell& cell : cells_) {
       const Piece& master = cell.overlap->piece[cell.master];
@@ -413,14 +429,13 @@ class DistributedContact {
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
       for (std::uint32_t s = cell.segment_start; total > 0 && s < cell.segment_end; ++s) {
         on_slave +=
-            segments_[s].share() / total * slave.velocity_inside(segments_[s].side, cell.foot, tangent_);
+            segments_[s].share() / total * slave.velocity_inside(segments_[s].side, cell.shear_at, tangent_);
       }
       if (!(total > 0))
-        on_slave = slave.velocity_inside(any_real_side(*cell.overlap, slave), cell.foot, tangent_);
+        on_slave = slave.velocity_inside(any_real_side(*cell.overlap, slave), cell.shear_at, tangent_);
       const double on_master =
-          dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.foot)));
-      const double share = cell.interface.friction * cell.pressed / limit;
-      velocity += (cell.master == 0 ? share : -share) * (on_slave - on_master);
+          dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.shear_at)));
+      velocity += (cell.master == 0 ? cell.shear : -cell.shear) * (on_slave - on_master);
     }
     slip_velocity_ = velocity;
     slip_increment_ = velocity * dt;
@@ -430,15 +445,15 @@ class DistributedContact {
     const Piece& master = cell.overlap->piece[cell.master];
     const Piece& slave = cell.overlap->piece[1 - cell.master];
     const Point on_slave = (cell.master == 0 ? force_on_b : -force_on_b) * tangent_;
-    sink.on_side(master, cell.side, master.lever(cell.side, cell.foot), -1.0 * on_slave);
+    sink.on_side(master, cell.side, master.lever(cell.side, cell.shear_at), -1.0 * on_slave);
     double total = 0;
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) total += segments_[s].share();
     if (!(total > 0)) {
-      sink.inside(slave, any_real_side(*cell.overlap, slave), cell.foot, on_slave);
+      sink.inside(slave, any_real_side(*cell.overlap, slave), cell.shear_at, on_slave);
       return;
     }
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
-      sink.inside(slave, segments_[s].side, cell.foot, (segments_[s].share() / total) * on_slave);
+      sink.inside(slave, segments_[s].side, cell.shear_at, (segments_[s].share() / total) * on_slave);
     }
   }
 
@@ -448,7 +463,7 @@ class DistributedContact {
     Point moment{0, 0};
     for (const Cell& cell : cells_) {
       load += cell.pressed;
-      moment = moment + cell.pressed * cell.foot;
+      moment = moment + cell.pressed * cell.pressed_at;
     }
     return load > 0 ? (1 / load) * moment : cells_[0].foot;
   }

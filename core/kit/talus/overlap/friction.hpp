@@ -14,14 +14,14 @@ struct FrictionHistory {
   double contact_length;  ///< m, L projected on s_c
   double x, y;            ///< m, where it is, in the frame of the pair: to know it again
   double slip;            ///< direction of the force while slipping (±1), 0 while sticking
-  double strips;  ///< where a piece is a strip, name_of_strips(); else 0, or what the lanes remember of
-                  ///< plain bodies (TouchingPair)
+  double strips;  ///< where one is a strip, name_of_strips(); else 0, or what the lanes remember of plain
+                  ///< bodies (TouchingPair)
 };
 
-inline constexpr unsigned friction_doubles = 8;
+inline constexpr unsigned friction_doubles = 8, slip_in_history = 6;
 
-/// Tells the strips of a pair of bodies apart by the first corners of both, in one number that is exact:
-/// bodies have fewer than 2²⁶ corners each.
+/// Tells the strips of a pair of bodies apart by their first corners, in one number that is exact: bodies
+/// have fewer than 2²⁶ corners each. Of a body without strips 0 will do.
 inline double name_of_strips(std::uint32_t first_a, std::uint32_t first_b) {
   constexpr std::uint64_t most = 1u << 26;
   return 1.0 + static_cast<double>(first_a % most * most + first_b % most);

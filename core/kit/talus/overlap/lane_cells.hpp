@@ -26,6 +26,7 @@ struct LaneCell {
   Pack area;                 ///< m²
   Pack lever;                ///< of the point below the centroid on the side, 0 to 1
   Pack load, on_end;         ///< N/m, normal; the part that the end of the side carries
+  Pack shear, shear_on_end;  ///< N/m, in proportion to which friction acts, and where
 
   Packs2 side() const { return master[1].at - master->at; }  ///< m
 };

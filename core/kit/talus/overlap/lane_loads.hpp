@@ -58,7 +58,7 @@ class LaneLoads {
       const auto other = piece_[1].template largest_triangle<other_sides>();
       const Sliding sliding(piece_[0], piece_[0].template motion<sides>(triangle), piece_[1],
                             piece_[1].template motion<other_sides>(other));
-      Between between = load_normally(g, interface, stiffness, share, sliding, batch.dt, damped, report);
+      Between between = load_normally(g, interface, stiffness, share, sliding, batch, damped, report);
       if constexpr (Law::frictional) friction(g, interface, sliding, batch, between, report);
       piece_[1].template push_at_points<other_sides>(other, between.force, between.moment_x,
                                                      between.moment_y);
@@ -127,12 +127,14 @@ class LaneLoads {
   /// Puts the pressure on both pieces. Returns what dashpots along the normal of the contact do: along the
   /// normals of its sides they would brake a corner that slides.
   Between load_normally(const LaneGroup<corners>& g, const LaneParameters& interface, Pack stiffness,
-                        Pack share, const Sliding& sliding, double dt, bool damped, Report& report) {
+                        Pack share, const Sliding& sliding, const ContactBatch& batch, bool damped,
+                        Report& report) {
     const Packs2 none{0.0, 0.0};
     if (!damped) {
       press(stiffness);
       return {none, none, none};
     }
+    slipped_ = Law::frictional ? simd::mask_of(slipped(g, history_of(g, batch))) : simd::nowhere();
     const Packs2 normal = normal_of_contact();
     const Closing closing{
         simd::only_where(contact_length_ > 0.0, share * 2.0 * interface.normal_damping *
@@ -145,7 +147,7 @@ class LaneLoads {
     each_cell([&](LaneCell& cell, Packs2 along) {
       dashpots.add(load_cell<true>(cell, along, stiffness, closing));
     });
-    report.damping_power = dashpots.power * dt;
+    report.damping_power = dashpots.power * batch.dt;
     report.damping_force = dashpots.size;
     report.pressed = simd::max(0.0, spring_force_ + dashpots.force);
     return {dashpots.force * normal, normal.x * dashpots.moment, normal.y * dashpots.moment};
@@ -187,14 +189,15 @@ class LaneLoads {
 
   /// Eqs. 28–36: on the slave by the trapezoid rule, on the master through the foot. The dashpot never pulls.
   template <bool damped>
-  static Dashpots load_cell(LaneCell& cell, Packs2 along, Pack stiffness, const Closing& closing) {
+  Dashpots load_cell(LaneCell& cell, Packs2 along, Pack stiffness, const Closing& closing) const {
     LaneCorner* const master = cell.master;
     const Packs2 normal = master->normal();
     master[0].push(cell.on_end - cell.load, normal);
     master[1].push(-cell.on_end, normal);
     // What presses a corner from both its sides adds no friction to it.
     const Pack part = simd::max(0.0, simd::dot(along, normal));
-    Pack all = part * cell.load, on_end = part * cell.on_end;
+    const Pack spring = part * cell.load, spring_on_end = part * cell.on_end;
+    Pack all = spring, on_end = spring_on_end;
     Dashpots dashpots;
     for (const LaneSegment* at = cell.begin; at != cell.end; ++at) {
       LaneCorner* const slave = at->slave;
@@ -222,24 +225,21 @@ class LaneLoads {
       dashpots.power = dashpots.power + (force0 * rate0 + force1 * rate1);
       dashpots.size = dashpots.size + (simd::abs(force0) + simd::abs(force1));
     }
-    // Friction acts where spring and dashpot press together: at the foot of the spring alone it would feed
-    // the strain of a sliding block.
     cell.load = simd::max(0.0, all);
     cell.on_end = simd::clamp(on_end, 0.0, cell.load);
+    // As in DistributedContact::place_friction().
+    cell.shear = damped ? simd::select(slipped_, cell.load, spring) : spring;
+    cell.shear_on_end = damped ? simd::select(slipped_, cell.on_end, spring_on_end) : spring_on_end;
     return dashpots;
   }
 
-  /// N/m, on all cells.
-  Pack load_of_all() const {
+  /// Where loads of all cells act together, of which on_end is what the ends of the sides carry; without
+  /// load, the mean over their areas.
+  Packs2 foot_of_all(Pack LaneCell::*load_of, Pack LaneCell::*on_end_of) const {
     Pack load = 0.0;
     for (int role = 0; role < roles_; ++role) {
-      for (const LaneCell& cell : cells_[role].cells()) load = load + cell.load;
+      for (const LaneCell& cell : cells_[role].cells()) load = load + cell.*load_of;
     }
-    return load;
-  }
-
-  /// Where the loads of all cells act together; without load, the mean over their areas.
-  Packs2 foot_of_all(Pack load) const {
     const auto mean = [&](Pack total, const auto& weight, const auto& on_end) {
       Packs2 moment{0.0, 0.0};
       for (int role = 0; role < roles_; ++role) {
@@ -249,8 +249,8 @@ class LaneLoads {
       return 1.0 / total * moment;
     };
     const Packs2 foot = mean(
-        load, [](const LaneCell& cell) { return cell.load; },
-        [](const LaneCell& cell) { return cell.on_end; });
+        load, [&](const LaneCell& cell) { return cell.*load_of; },
+        [&](const LaneCell& cell) { return cell.*on_end_of; });
     const Mask loaded = load > 0.0;
     if (simd::bits(loaded) == all_lanes) return foot;
     const Pack area = roles_ == 2 ? cells_[0].area + cells_[1].area : cells_[0].area;
@@ -260,21 +260,36 @@ class LaneLoads {
     return simd::select(loaded, foot, middle);
   }
 
+  struct Histories {
+    const double* row[lanes];
+  };
+  static Histories history_of(const LaneGroup<corners>& g, const ContactBatch& batch) {
+    Histories all;
+    for (int lane = 0; lane < lanes; ++lane)
+      all.row[lane] = batch.history + std::size_t{g.slot[lane]} * friction_doubles;
+    return all;
+  }
+
+  /// Lanes that slipped a step ago.
+  static LaneBits slipped(const LaneGroup<corners>& g, const Histories& history) {
+    LaneBits slipped = 0;
+    for (int lane = 0; lane < lanes; ++lane)
+      slipped |= (history.row[lane][slip_in_history] != 0 ? 1u : 0u) << lane;
+    return slipped & g.remembered;
+  }
+
   /// Eqs. 37–44: the slip is that through which the tangential load works. Cells take it by their loads, on
   /// both bodies at one common point each; of bodies that move by one affine map this is the same as all of
   /// it at the foot of all.
   void friction(const LaneGroup<corners>& g, const LaneParameters& interface, const Sliding& sliding,
                 const ContactBatch& batch, Between& between, Report& report) {
-    const Packs2 foot = foot_of_all(load_of_all());
+    const Packs2 foot = foot_of_all(&LaneCell::shear, &LaneCell::shear_on_end);
     const Pack load = report.pressed;
     const Pack slip = simd::dot(tangent_, sliding.at(foot));
     const Pack increment = slip * batch.dt;
 
     Pack old[4];
-    const double* history[lanes];
-    for (int lane = 0; lane < lanes; ++lane)
-      history[lane] = batch.history + std::size_t{g.slot[lane]} * friction_doubles;
-    simd::gather_rows(history, old);
+    simd::gather_rows(history_of(g, batch).row, old);
     const Mask remembered = simd::mask_of(g.remembered);
     for (Pack& value : old) value = simd::only_where(remembered, value);
     const Pack old_elastic = old[0], old_applied = old[1], old_stored = old[2], old_length = old[3];
@@ -327,6 +342,7 @@ class LaneLoads {
                               [[maybe_unused]] std::uint32_t slot) {
       to.contact_count = 1;
       to.gap = 0;
+      to.damping_force = 0;
       report_row[lane] = &to.penetration;
       if constexpr (Law::frictional) {
         row[lane] = history + std::size_t{slot} * friction_doubles;
@@ -348,7 +364,7 @@ class LaneLoads {
     }
     const Pack energies[4] = {report.penetration, report.stored, report.slip_loss, report.damping_power};
     simd::scatter_rows(energies, report_row);
-    if (simd::any(report.damping_power > 0.0)) write_dashpots(loads, g, report, wanted);
+    if (simd::any(report.damping_force > 0.0)) write_dashpots(loads, g, report, wanted);
     if constexpr (Law::frictional) {
       const Pack first[4] = {report.elastic, report.applied, report.spring_energy, contact_length_};
       simd::scatter_rows(first, row);
@@ -369,7 +385,8 @@ class LaneLoads {
 
   void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
                       LaneBits wanted) const {
-    const Packs2 normal = report.pressed * normal_of_contact(), foot = foot_of_all(load_of_all());
+    const Packs2 normal = report.pressed * normal_of_contact(),
+                 foot = foot_of_all(&LaneCell::load, &LaneCell::on_end);
     const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
     alignas(64) double value[8][lanes];
     simd::store(foot.x, value[0]);
@@ -390,6 +407,7 @@ class LaneLoads {
   LanePiece<corners> piece_[2];
   LaneCells<corners> cells_[2];
   int roles_ = 1;
+  Mask slipped_;
   Packs2 tangent_;
   Pack contact_length_, spring_force_;
 };
