@@ -30,6 +30,11 @@ struct SpringForce {
   bool slips, breaks;
 };
 
+/// c l + N tan φ, less under tension, N/m.
+inline double shear_strength(const SpringParameters& spring, double normal) {
+  return std::max(0.0, spring.cohesion + spring.friction * normal);
+}
+
 /// Mohr–Coulomb with tension cut-off: no more than c l + N tan φ along the edge, no more than σ_t l across
 /// it. `viscous` is what a dashpot adds to the normal force. While the scene settles what has strength is
 /// held.
@@ -38,14 +43,14 @@ inline SpringForce spring_force(const SpringParameters& spring, double depth, do
   SpringForce force{spring.normal * depth, old_tangential - spring.tangential * slip, false, false};
   const bool bond_held = held && spring.tensile > 0;
   if (force.normal < -spring.tensile && !bond_held) return {0, 0, false, true};
-  const double frictional = spring.friction * std::max(0.0, force.normal + viscous);
-  const double limit = spring.cohesion + frictional;
+  const double limit = shear_strength(spring, force.normal + viscous);
   const bool without_strength = spring.friction == 0 && spring.cohesion == 0;
   if (held && !without_strength) return force;
   if (std::abs(force.tangential) > limit) {
     force.slips = true;
     force.breaks = spring.cohesion > 0;
-    force.tangential = std::copysign(frictional, force.tangential);
+    force.tangential =
+        std::copysign(spring.friction * std::max(0.0, force.normal + viscous), force.tangential);
   }
   return force;
 }

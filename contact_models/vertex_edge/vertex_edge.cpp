@@ -59,6 +59,7 @@ class VertexEdge final : public ContactModel {
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto work = std::make_unique<Workspace>();
     work->reach_of_bonds = reach_of_bonds(batch.interfaces, batch.hold_stick);
+    work->bonds_break = batch.bonds_form && !batch.hold_stick && any_bond(batch.interfaces);
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
@@ -82,6 +83,7 @@ class VertexEdge final : public ContactModel {
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
     double reach_of_bonds = 0;  ///< m, or [-] of springs given directly
+    bool bonds_break = false;   ///< though they still form
     CornerFinder finder;
   };
 
@@ -99,18 +101,32 @@ class VertexEdge final : public ContactModel {
       report.slip_loss += old.stored + old.pulled;
     }
     std::uint32_t count = 0;
-    for (const CornerContact& contact : work.found) {
-      SpringHistory history = born(batch, contact, work);
-      ContactReport seen{};
-      if (!act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report)) continue;
+    const auto keep = [&](const SpringHistory& history, const ContactReport& seen) {
       if (count < pair.slot_capacity) {
         write(history, loads.history + (pair.slot_start + count) * spring_doubles);
         if (loads.reports != nullptr) loads.reports[pair.slot_start + count] = seen;
       }
       ++count;
+    };
+    for (const CornerContact& contact : work.found) {
+      SpringHistory history = born(batch, contact, work);
+      ContactReport seen{};
+      const bool acts = act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report);
+      if (acts) {
+        keep(history, seen);
+      } else if (work.bonds_break) {
+        keep(broken(history.key), {});
+      }
+    }
+    // While bonds form nobody else would know which have broken.
+    for (const SpringHistory& old : work.old) {
+      const auto is_it = [&](const CornerContact& contact) { return old.key == 1.0 + contact.key; };
+      if (work.bonds_break && std::ranges::none_of(work.found, is_it)) keep(broken(old.key), {});
     }
     report.contact_count = count;
   }
+
+  static SpringHistory broken(double key) { return {key, 0, 0, 0, 0, 0}; }
 
   static void read_history(const ContactBatch& batch, const BodyPair& pair, std::vector<SpringHistory>& old) {
     old.clear();
@@ -140,8 +156,10 @@ class VertexEdge final : public ContactModel {
     for (std::uint32_t e = 0; e < entries; ++e) {
       const double sides[2] = {longest_side(all[e].piece[0]), longest_side(all[e].piece[1])};
       const double touching = batch.bonds_form ? 1e-12 * std::min(sides[0], sides[1]) : 0.0;
-      const double bonded =
+      const double widest =
           direct_ ? work.reach_of_bonds * std::max(sides[0], sides[1]) : work.reach_of_bonds;
+      // As far as a step can open it beyond, for what breaks is booked when it is found to have.
+      const double bonded = widest > touching ? widest + batch.dt * fastest_apart(all[e]) : widest;
       const auto bond_reach = [&, bonded, touching](std::uint32_t key) {
         if (bonded == touching) return touching;  // no need to know who is bonded
         const SpringHistory* old = find_old(work.old, key);
@@ -167,6 +185,17 @@ class VertexEdge final : public ContactModel {
     found.resize(kept);
   }
 
+  /// m/s, no two corners part faster.
+  static double fastest_apart(const PiecePairGeometry& pair) {
+    const Point of = pair.piece[0].velocity(0);
+    double fastest = 0;
+    for (const Piece& piece : pair.piece) {
+      for (std::uint32_t i = 0; i < piece.size(); ++i)
+        fastest = std::max(fastest, length(piece.velocity(i) - of));
+    }
+    return 2 * fastest;
+  }
+
   static double longest_side(const Piece& piece) {
     double longest = 0;
     for (std::uint32_t i = 0; i < piece.size(); ++i) longest = std::max(longest, piece.length(i));
@@ -185,6 +214,15 @@ class VertexEdge final : public ContactModel {
       if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
     }
     return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
+  }
+
+  static bool any_bond(const Interfaces& interfaces) {
+    const std::uint32_t surfaces = interfaces.surface_count;
+    for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
+      const Interface interface = read(interfaces.value + interfaces.row[i] * interfaces.parameter_count);
+      if (interface.cohesion > 0 || interface.tensile > 0) return true;
+    }
+    return false;
   }
 
   static const SpringHistory* find_old(const std::vector<SpringHistory>& old, std::uint32_t key) {
@@ -226,19 +264,32 @@ class VertexEdge final : public ContactModel {
     const SpringParameters spring = springs(interface, contact.tributary, history.intact == 1);
     const Point normal = other.normal(contact.side), along = other.tangent(contact.side);
     const Point relative = own.velocity(contact.vertex) - other.velocity_at(contact.side, contact.lever);
-    const double slip = dot(relative, along) * batch.dt;
-
     const double closing = -dot(relative, normal);
+    // Friction acts at the vertex, as deep behind the side as it is, and slips as the side moves there.
+    const double sliding = dot(own.velocity(contact.vertex), along) -
+                           other.working_velocity(contact.side, own.at(contact.vertex), along);
+    const double slip = sliding * batch.dt;
+
     // A flat contact stands on two such springs, and its ratio is meant of the two together.
     const double carried_mass = pair.reduced_mass / 2;
     const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
-    const double viscous = std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth));
+    // No dashpot pulls, but what a bond would bear as well.
+    const bool held = batch.hold_stick && spring.tensile > 0;
+    const double viscous =
+        held ? dashpot * closing
+             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth + spring.tensile));
 
     const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
     const SpringForce force =
         spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
     if (force.breaks) history.intact = 0;
-    if (force.normal <= 0 && history.intact == 0) return false;
+    if (force.normal <= 0 && history.intact == 0) {
+      // The force of the step before has worked through half of this one.
+      const double pull =
+          old_pulled > 0 ? contact.share * spring.normal * (contact.depth - closing * batch.dt) : 0;
+      report.slip_loss += (pull * closing * batch.dt - old_applied * slip) / 2;
+      return false;
+    }
 
     history.elastic = force.tangential;
     history.applied = contact.share * force.tangential;
@@ -259,11 +310,10 @@ class VertexEdge final : public ContactModel {
     if (!force.slips && spring.tangential > 0 && spring.friction + spring.cohesion > 0) {
       const double shear_dashpot =
           2 * interface.tangential_damping * std::sqrt(spring.tangential * carried_mass);
-      const double limit = batch.hold_stick
-                               ? std::numeric_limits<double>::infinity()
-                               : spring.cohesion + spring.friction * std::max(0.0, force.normal + viscous);
-      tangential = std::clamp(tangential - shear_dashpot * dot(relative, along),
-                              -std::max(limit, std::abs(tangential)), std::max(limit, std::abs(tangential)));
+      const double limit = batch.hold_stick ? std::numeric_limits<double>::infinity()
+                                            : shear_strength(spring, force.normal + viscous);
+      tangential = std::clamp(tangential - shear_dashpot * sliding, -std::max(limit, std::abs(tangential)),
+                              std::max(limit, std::abs(tangential)));
       const double viscous_shear = tangential - force.tangential;
       report.damping_power += contact.share * std::max(0.0, -viscous_shear * slip);
       report.damping_force += static_cast<float>(contact.share * std::abs(viscous_shear));

@@ -376,3 +376,100 @@ TEST_CASE("Jagged bodies of many elements meet alike in the mirror", "[vertex_ed
   CHECK(mirrored.x == Approx(drawn.x).epsilon(1e-6));
   CHECK(mirrored.y == Approx(drawn.y).epsilon(1e-6));
 }
+
+TEST_CASE("Friction slips as the side moves where it acts, at the vertex behind it", "[vertex_edge]") {
+  // A beam held at its middle is turned onto a fixed corner: at the foot on its side nothing else slips.
+  WorkingScene text;
+  text.law =
+      R"(vertex_edge", "vertex_edge": {"calibration": "springs", "normal_spring": 1e7, "tangential_spring": 1e7}, "roles": "symmetric)";
+  text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies = box("beam", -1, -0.1, 1, 0.1, R"("fix": ["x", "y"], "drive": {"rotation": -3})") +
+                R"(, {"name": "corner", "material": "rock", "fixed": true,
+                      "polygon": [[0.3, -0.1], [0.1, -0.6], [0.5, -0.6]]})";
+  text.time = R"({"end": 1, "dt": 1e-3})";
+  text.rest = R"("limits": {"energy_residual": 1},)";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.ledger().contact > 10);
+  CHECK(residual_share(simulation.ledger()) < 1e-4);
+}
+
+namespace {
+
+/// A block of 1 x 0.5 m, 10 kN/m, whose ends hang from a ceiling or stand on a floor by their bonds.
+WorkingScene bonded_block(const std::string& interface, double stiffness = 1e8) {
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -10]";
+  text.material = R"("density": 2000)";
+  text.interface =
+      fmt::format(R"("normal_stiffness": {0}, "tangential_stiffness": {0}, )", stiffness) + interface;
+  text.rest = R"("limits": {"energy_residual": 1},)";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("A bond is damped while it opens, too", "[vertex_edge][bonds]") {
+  WorkingScene text = bonded_block(R"("friction_angle": 30, "normal_damping": 0.3, "tangential_damping": 0.3,
+      "cohesion": 1e6, "tensile_strength": 1e6)");
+  text.bodies = box("ceiling", -1, 0, 2, 0.5, R"("fixed": true)") + "," + box("a", 0, -0.5, 1, 0);
+  text.time = R"({"end": 0.1, "dt": 1e-5})";
+  text.output = R"({"history": 1e-4})";
+  Simulation simulation(text.read(), {});
+  double lowest = 0;
+  while (simulation.advance()) lowest = std::min(lowest, simulation.body_motion(1).displacement.y);
+  const double zeta = 0.3, overshoot = std::exp(-std::acos(-1.0) * zeta / std::sqrt(1 - zeta * zeta));
+  CHECK(lowest == Approx(-1e-4 * (1 + overshoot)).epsilon(2e-3));
+}
+
+TEST_CASE("A bond under tension bears less along the edge: c l + N tan phi", "[vertex_edge][bonds]") {
+  const double mu = std::tan(std::acos(-1.0) / 6);
+  for (const double tension : {2e4, 9e4}) {
+    LawBench bench("vertex_edge", with(undamped_interface(), {{"normal_stiffness", 1e8},
+                                                              {"tangential_stiffness", 1e8},
+                                                              {"friction_angle", 30},
+                                                              {"cohesion", 1e5},
+                                                              {"tensile_strength", 1e5}}));
+    bench.bodies = block_on_base(0);
+    bench.bonds_form = true;
+    bench.step();
+    bench.bonds_form = false;
+    CHECK(shifted(bench, {0, tension / 1e8}).on(1).y == Approx(-tension).epsilon(1e-6));
+    double most = 0;
+    for (int i = 0; i < 120; ++i) most = std::max(most, std::abs(shifted(bench, {1e-5, 0}).on(1).x));
+    CHECK(most == Approx(1e5 - mu * tension).epsilon(0.02));
+  }
+}
+
+TEST_CASE("What breaks while bonds form and nothing is held stays broken", "[vertex_edge][bonds]") {
+  // It falls on the floor, whose bonds are too weak for its bounce, and is then pushed.
+  WorkingScene text = bonded_block(R"("friction_angle": 0, "normal_damping": 0, "tangential_damping": 0,
+      "cohesion": 1e5, "tensile_strength": 1e3)");
+  text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," + box("a", 0, 0.02, 1, 0.52);
+  text.time = R"({"end": 0.2})";
+  text.rest += R"("settle": {"duration": 3, "damping": 5, "hold_stick": false},
+                  "loads": [{"body": "a", "point": [0.5, 0.27], "force": [1e4, 0]}],)";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.body_motion(1).velocity.x == Approx(2).epsilon(1e-3));
+}
+
+TEST_CASE("The step in which a bond breaks is booked as a whole", "[vertex_edge][bonds]") {
+  for (const char* way : {"[0, 0.06]", "[0.06, 0]"}) {
+    INFO(way);
+    WorkingScene text = bonded_block(R"("friction_angle": 0, "normal_damping": 0, "tangential_damping": 0,
+      "cohesion": 1e5, "tensile_strength": 1e5)",
+                                     1e10);
+    text.gravity = "[0, 0]";
+    text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," +
+                  box("a", 0, 0, 1, 0.5, fmt::format(R"("fix": ["rotation"], "velocity": {})", way));
+    text.time = R"({"end": 0.1, "dt": 1e-4})";
+    const Simulation simulation = run_to_end(text);
+    const EnergyLedger& ledger = simulation.ledger();
+    CHECK(ledger.friction_loss > 0.3);
+    CHECK(residual_share(ledger) < 2e-3);
+  }
+}
