@@ -180,26 +180,31 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
   const auto lead = [&](Vec2 p) {
     return dot(minus(p, competitor_start), other) - dot(minus(p, start), own);
   };
+  // The corners that go are in a row, whatever rounding makes of those that lie on the line.
   std::array<double, std::tuple_size_v<Corners>> leads;
-  bool all_ahead = true;
+  std::size_t first_behind = count, last_behind = 0;
   for (std::size_t i = 0; i < count; ++i) {
     leads[i] = lead(corners[i]);
-    all_ahead = all_ahead && leads[i] >= 0;
+    if (leads[i] >= 0) continue;
+    first_behind = std::min(first_behind, i);
+    last_behind = i;
   }
-  if (all_ahead || leads[0] < 0 || leads[1] < 0) return count;
-  Corners kept;
-  std::size_t size = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = i + 1 == count ? 0 : i + 1;
-    const Vec2 p = corners[i], q = corners[next];
-    const double from = leads[i], to = leads[next];
-    if (from >= 0) kept[size++] = p;
-    if ((from >= 0) != (to >= 0)) {
-      const double share = from / (from - to);
-      kept[size++] = {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
-    }
+  if (first_behind < 2 || first_behind == count) return count;
+  const auto crossing = [&](std::size_t behind, std::size_t ahead) {
+    const double share = leads[ahead] / (leads[ahead] - leads[behind]);
+    const Vec2 way = minus(corners[behind], corners[ahead]);
+    return along(corners[ahead], share, way);
+  };
+  const Vec2 entry = crossing(first_behind, first_behind - 1),
+             exit = crossing(last_behind, last_behind + 1 == count ? 0 : last_behind + 1);
+  const std::size_t size = count - (last_behind + 1 - first_behind) + 2;
+  if (size > count) {
+    std::copy_backward(corners.begin() + last_behind + 1, corners.begin() + count, corners.begin() + size);
+  } else {
+    std::copy(corners.begin() + last_behind + 1, corners.begin() + count, corners.begin() + first_behind + 2);
   }
-  corners = kept;
+  corners[first_behind] = entry;
+  corners[first_behind + 1] = exit;
   return size;
 }
 

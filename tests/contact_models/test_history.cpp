@@ -1,6 +1,8 @@
 #include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "simulation/working_scene.hpp"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -136,4 +138,30 @@ TEST_CASE("Friction is not forgotten where the load acts beside the overlap", "[
   const double elastic = plain.history.begin()->second.history[0];
   CHECK(std::abs(elastic) > 1);
   CHECK(general.history.begin()->second.history[0] == Approx(elastic).epsilon(1e-6));
+}
+
+TEST_CASE("Contacts side by side are told apart however fast the frame moves in which they are seen",
+          "[laws]") {
+  // Two feet stand on a plate, which pushes and lets go of now the one, now the other.
+  const auto slid = [](double speed) {
+    WorkingScene text;
+    text.interface = R"("normal_stiffness": 1e7, "tangential_stiffness": 1e7, "friction_angle": 20,
+                        "normal_damping": 0.3, "tangential_damping": 0.3)";
+    const std::string moving = fmt::format(R"("velocity": [{}, 0])", speed);
+    text.bodies = box("plate", -0.1, -0.05, 0.1, 0, moving) +
+                  R"(, {"name": "feet", "material": "rock", "polygon": [[-0.025, 0], [-0.015, 0],
+                        [-0.015, 0.015], [0.015, 0.015], [0.015, 0], [0.025, 0], [0.025, 0.04],
+                        [-0.025, 0.04]], )" +
+                  moving + "}";
+    text.time = R"({"end": 0.1, "dt": 4e-4})";
+    text.rest = R"("limits": {"energy_residual": 1, "penetration": 1}, "loads": [
+        {"body": "plate", "point": [0.004, -0.001],
+         "force": [{"scale": -300, "time": [[0, 0], [0.1, 1], [0.2, -1], [0.3, 0]]}, 1000]},
+        {"body": "feet", "point": [0.004, 0.016],
+         "force": [{"scale": 300, "time": [[0, 0], [0.1, 1], [0.2, -1], [0.3, 0]]}, -1000]}],)";
+    const Simulation simulation = run_to_end(text);
+    return simulation.body_motion(1).displacement.x - simulation.body_motion(0).displacement.x;
+  };
+  const double due = slid(0);
+  for (const double speed : {30.0, 55.0, 100.0, 500.0}) CHECK(slid(speed) == Approx(due).epsilon(1e-6));
 }

@@ -3,7 +3,9 @@
 #include <talus/overlap/friction.hpp>
 #include <talus/overlap/grouping.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace talus::overlap {
@@ -39,10 +41,9 @@ class CarriedHistory {
       return;
     }
     old_.clear();
-    for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
-      const FrictionHistory old = read_history(batch.history + (pair.slot_start + i) * friction_doubles);
-      if (!carry_to_same_strips(old)) old_.push_back(old);
-    }
+    for (std::uint32_t i = 0; i < pair.contact_count; ++i)
+      old_.push_back(read_history(batch.history + (pair.slot_start + i) * friction_doubles));
+    carry_to_same_strips();
     if (old_.empty()) return;
     spans_.clear();
     for (std::uint32_t g = 0; g < carried_.size(); ++g) spans_.push_back(overlaps.span(g, batch.dt));
@@ -55,8 +56,8 @@ class CarriedHistory {
   void name_strips(const OverlapGroups& overlaps, std::uint32_t groups) {
     for (const Overlap& overlap : overlaps.overlaps()) {
       if (overlap.group >= groups || !(overlap.piece[0].is_strip() || overlap.piece[1].is_strip())) continue;
-      carried_[overlap.group].strips =
-          name_of_strips(overlap.piece[0].first_corner(), overlap.piece[1].first_corner());
+      const auto strip = [&](const Piece& piece) { return piece.is_strip() ? piece.first_corner() : 0; };
+      carried_[overlap.group].strips = name_of_strips(strip(overlap.piece[0]), strip(overlap.piece[1]));
     }
   }
 
@@ -116,6 +117,8 @@ class CarriedHistory {
   /// was one with it.
   bool could_be(std::uint32_t now, std::uint32_t old) const {
     if (!near(now, old)) return false;
+    const double strips = old_[old].strips;
+    if (carried_[now].strips != strips && named(carried_, strips) > 0) return false;
     const GroupSpan& span = spans_[now];
     const Point from = Point{old_[old].x, old_[old].y} - span.centre;
     if (spans_.size() == 1 && old_.size() == 1) return true;
@@ -129,20 +132,36 @@ class CarriedHistory {
   }
 
   /// Along the boundary of a body of many elements contacts lie end to end, and place alone would mix
-  /// neighbours: the two strips tell which is which as long as they touch.
-  bool carry_to_same_strips(const FrictionHistory& old) {
-    if (old.strips == 0) return false;
-    for (FrictionHistory& now : carried_) {
-      if (now.strips != old.strips) continue;
-      add(1, old, now);
-      return true;
+  /// neighbours: the strips tell which is which as long as they touch. A strip that touches several pieces of
+  /// a body may have several contacts, which place tells apart.
+  void carry_to_same_strips() {
+    told_.clear();
+    for (const FrictionHistory& old : old_)
+      told_.push_back(named(carried_, old.strips) == 1 && named(old_, old.strips) == 1 ? 1 : 0);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < old_.size(); ++i) {
+      if (told_[i] == 0) {
+        old_[kept++] = old_[i];
+        continue;
+      }
+      for (FrictionHistory& now : carried_) {
+        if (now.strips == old_[i].strips) add(1, old_[i], now);
+      }
     }
-    return false;
+    old_.resize(kept);
+  }
+
+  /// How many of these are of the strips with this name.
+  static std::ptrdiff_t named(const std::vector<FrictionHistory>& contacts, double strips) {
+    return strips == 0 ? 0 : std::count_if(contacts.begin(), contacts.end(), [&](const FrictionHistory& one) {
+      return one.strips == strips;
+    });
   }
 
   std::vector<FrictionHistory> carried_;
   std::vector<GroupSpan> spans_;
-  std::vector<FrictionHistory> old_;  ///< that the strips did not tell
+  std::vector<FrictionHistory> old_;  ///< in the end those that the strips did not tell
+  std::vector<char> told_;            ///< [old]
 };
 
 }  // namespace talus::overlap

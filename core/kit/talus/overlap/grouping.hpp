@@ -16,9 +16,9 @@ struct Overlap {
 
 /// Where a group of overlaps lies, to find it again one step later.
 struct GroupSpan {
-  Point centre;
+  Point centre;   ///< where that was a step ago if it moved with the bodies
   double size;    ///< m, a measure of its length
-  double reach;   ///< m, half its extent and what it can have moved in a step
+  double reach;   ///< m, half its extent and what it can have moved otherwise in a step
   Point along;    ///< unit vector, where it is longest
   double across;  ///< m, the most that it lies off the line along `along` through `centre`, and that motion
 };
@@ -70,12 +70,18 @@ class OverlapGroups {
   }
 
   GroupSpan span(std::uint32_t group, double dt) const {
-    double speed = 0;
-    for (const std::uint32_t i : members(group)) {
-      for (const Piece& piece : pool_[i].piece) {
-        for (std::uint32_t k = 0; k < piece.size(); ++k) speed = std::max(speed, length(piece.velocity(k)));
+    const auto each_velocity = [&](const auto& visit) {
+      for (const std::uint32_t i : members(group)) {
+        for (const Piece& piece : pool_[i].piece) {
+          for (std::uint32_t k = 0; k < piece.size(); ++k) visit(piece.velocity(k));
+        }
       }
-    }
+    };
+    Point drift{0, 0};
+    double corners = 0, speed = 0;
+    each_velocity([&](Point velocity) { drift = drift + velocity, corners += 1; });
+    drift = (1 / corners) * drift;
+    each_velocity([&](Point velocity) { speed = std::max(speed, length(velocity - drift)); });
     const auto [low, high] = box_of(group);
     const double size = length(high - low), moved = 2 * speed * dt;
     const Point centre = 0.5 * (low + high), end = farthest(group, centre), other = farthest(group, end);
@@ -86,7 +92,7 @@ class OverlapGroups {
       for (const Corner& corner : pool_[i].polygon)
         across = std::max(across, std::abs(cross(along, corner.at - centre)));
     }
-    return {centre, size, size / 2 + moved, along, across + moved};
+    return {centre - dt * drift, size, size / 2 + moved, along, across + moved};
   }
 
  private:
@@ -145,6 +151,10 @@ class OverlapGroups {
   bool joined(const Stretch& p, const Stretch& q) const {
     if (pool_[p.overlap].group == pool_[q.overlap].group) return false;
     const SideLabel side = pool_[p.overlap].polygon[p.side].side;
+    // So do overlaps of two strips along the cut of a piece that both meet.
+    const Piece &facing = pool_[p.overlap].piece[1 - side.body],
+                &other = pool_[q.overlap].piece[1 - side.body];
+    if (facing.is_strip() && facing.first_corner() != other.first_corner()) return false;
     const Point along = pool_[p.overlap].piece[side.body].tangent(side.index);
     const auto interval = [&](const Stretch& stretch) {
       const Polygon& polygon = pool_[stretch.overlap].polygon;
