@@ -93,7 +93,7 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
     pair.contact_count = contacts;
     const double power = report.damping_power;
     FormerDashpots now;
-    if (power > 0 && report.damping_force > 0) {
+    if (report.damping_force > 0) {  // at the start of a run without power, for nothing has moved yet
       now = {static_cast<float>(power), report.damping_force};
       carried_on += former.force * (power / now.force);
     }

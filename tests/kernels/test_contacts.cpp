@@ -49,7 +49,8 @@ struct SomePairs {
         const std::uint32_t contacts =
             i % 17 == 1 ? pair.slot_capacity + 2 : 1 + i % std::max(pair.slot_capacity, 1U);
         report = {contacts, static_cast<float>(random()), random(), random(), random(), random(), 0};
-        if (i % 6 == 5) report.damping_power = 0;  // the force is whatever was there
+        if (i % 6 == 5) report.damping_power = 0;  // nothing has moved yet
+        if (i % 12 == 11) report.damping_force = 0;
       }
       pairs.push_back(pair);
       reports.push_back(report);
@@ -91,7 +92,7 @@ struct SomePairs {
       if (report.contact_count > 0) {
         FormerDashpots& former = dashpots[pair.slot_start];
         sum.damping_loss += report.damping_power / 2;
-        if (report.damping_power == 0) {
+        if (report.damping_force == 0) {
           former = {0, 0};
         } else {
           if (pair.contact_count > 0)

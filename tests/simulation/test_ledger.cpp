@@ -79,3 +79,24 @@ TEST_CASE("a trace of viscosity leaves the balance of a plastic body as it is", 
   };
   CHECK(largest_share(1e-12) == Approx(largest_share(0)).epsilon(1e-3));
 }
+
+TEST_CASE("dashpots that push from the start on are booked from the start on", "[simulation][ledger]") {
+  for (const char* law : {"overlap_area", "vertex_edge"}) {
+    INFO(law);
+    WorkingScene text;
+    text.law = law;
+    text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 45,
+                        "normal_damping": 0.3, "tangential_damping": 0.3)";
+    text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," +
+                  box("a", 0, 0, 1, 1, R"("velocity": [0.02, -0.02], "fix": ["rotation"])");
+    text.gravity = "[0, -10]";
+    text.rest = R"("settle": {"duration": 1, "damping": "adaptive"},)";
+    text.time = R"({"end": 2e-4, "dt": 1e-4})";
+    Simulation simulation(text.read(), {});
+    REQUIRE(simulation.settle());
+    while (simulation.advance()) {
+    }
+    CHECK(simulation.ledger().contact_damping_loss > 0);
+    CHECK(std::abs(simulation.ledger().residual) < 1e-3 * simulation.ledger().contact_damping_loss);
+  }
+}

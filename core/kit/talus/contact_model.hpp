@@ -178,7 +178,8 @@ struct ContactReport {
 struct PairReport {
   std::uint32_t
       contact_count;    ///< contacts found; if more than slot_capacity the host makes room and asks again
-  float damping_force;  ///< N/m, of all dashpots, by size; read where damping_power is not 0
+  float damping_force;  ///< N/m, of all dashpots, by size, also where nothing has moved yet; 0 where none
+                        ///< pushes
   double penetration;   ///< m, the largest overlap depth of the pair
   double stored;        ///< J/m, recoverable energy: normal and tangential springs
   double slip_loss;     ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
