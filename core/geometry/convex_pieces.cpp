@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -116,21 +117,57 @@ Place cut_target(RingSet& region, Place from, Vec2 along) {
   return {side.ring, side.corner + 1};
 }
 
+/// Centroid of a body and the longer side of the box around it, m.
+std::pair<Vec2, double> middle_and_extent(const RingSet& whole) {
+  const Vec2 origin = whole[0][0].at;
+  double area = 0, x = 0, y = 0;
+  Vec2 low{0, 0}, high{0, 0};
+  for (const ConvexPiece& ring : whole) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 p = minus(ring[i].at, origin), q = minus(ring[next(ring, i)].at, origin);
+      area += cross(p, q) / 2;
+      x += cross(p, q) * (p.x + q.x) / 6;
+      y += cross(p, q) * (p.y + q.y) / 6;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  return {{origin.x + x / area, origin.y + y / area}, std::max(high.x - low.x, high.y - low.y)};
+}
+
+struct ReflexCorner {
+  Vec2 at;
+  double keys[3];  ///< m: reach, distance from the centroid, how far its bisector passes it by
+};
+
+/// By one key after the other; what differs by no more than `rounding` is equal.
+void sort_by_keys(std::span<ReflexCorner> corners, std::size_t key, double rounding) {
+  if (key == std::size(corners[0].keys)) return;
+  std::stable_sort(corners.begin(), corners.end(),
+                   [&](const ReflexCorner& p, const ReflexCorner& q) { return p.keys[key] < q.keys[key]; });
+  for (std::size_t begin = 0, end = 1; begin < corners.size(); begin = end++) {
+    while (end < corners.size() && corners[end].keys[key] - corners[end - 1].keys[key] <= rounding) ++end;
+    if (end - begin > 1) sort_by_keys(corners.subspan(begin, end - begin), key + 1, rounding);
+  }
+}
+
 /// The reflex corners of a body, that with the shortest way to the other side first: so which cut ends at
-/// which depends neither on the corner nor on the direction from which the body is listed.
-std::vector<Vec2> reflex_corners_by_reach(const RingSet& whole) {
-  std::vector<std::pair<double, Vec2>> found;
+/// which depends neither on the corner nor on the direction from which the body is listed. Equal ones, as
+/// those of a comb, follow from the centroid outwards, and of two at one distance that whose bisector leaves
+/// the centroid on its right. Corners that a rotation brings to each other are as listed.
+std::vector<ReflexCorner> reflex_corners_by_reach(const RingSet& whole) {
+  const auto [middle, extent] = middle_and_extent(whole);
+  std::vector<ReflexCorner> found;
   for (std::size_t r = 0; r < whole.size(); ++r) {
     for (std::size_t i = 0; i < whole[r].size(); ++i) {
       if (!is_reflex(whole[r], i)) continue;
-      found.emplace_back(first_ahead(whole, {r, i}, inner_bisector(whole[r], i)).distance, whole[r][i].at);
+      const Vec2 at = whole[r][i].at, bisector = inner_bisector(whole[r], i), out = minus(at, middle);
+      found.push_back(
+          {at, {first_ahead(whole, {r, i}, bisector).distance, size_of(out), cross(out, bisector)}});
     }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& p, const auto& q) { return p.first < q.first; });
-  std::vector<Vec2> corners;
-  for (const auto& [reach, at] : found) corners.push_back(at);
-  return corners;
+  if (!found.empty()) sort_by_keys(found, 0, 1e-9 * extent);
+  return found;
 }
 
 /// Corners from `first` round to `last`, then back along the cut.
@@ -170,10 +207,10 @@ class Divider {
     // No cut makes a corner reflex, and each leaves one less; where rounding sees it otherwise there is no
     // end.
     for (const ConvexPiece& ring : whole) most_cuts_ += ring.size();
-    const std::vector<Vec2> corners = reflex_corners_by_reach(whole);
+    const std::vector<ReflexCorner> corners = reflex_corners_by_reach(whole);
     // Not by recursion: a saw of many teeth would exhaust the stack.
     std::vector<RingSet> waiting{std::move(whole)};
-    for (const Vec2 at : corners) cut_from(waiting, at);
+    for (const ReflexCorner& corner : corners) cut_from(waiting, corner.at);
     std::vector<ConvexPiece> pieces;
     while (!waiting.empty()) {
       RingSet region = std::move(waiting.back());

@@ -347,3 +347,32 @@ TEST_CASE("a body with a needle as thin as rounding is refused, not cut into pie
                      std::vector<std::uint32_t>(5, 0)};
   CHECK(convex_pieces(chamfer, {}).size() == 1);
 }
+
+TEST_CASE("of ways that are equally long the same is taken first, however the body lies",
+          "[geometry][pieces]") {
+  // A wall with battlements: two of its cuts would cross.
+  const Ring castle{{0, 0},     {4, 0},     {4, 1.5}, {3, 1.5}, {3, 1},   {2.5, 1},
+                    {2.5, 1.5}, {1.5, 1.5}, {1.5, 1}, {1, 1},   {1, 1.5}, {0, 1.5}};
+  // Where the corners of all pieces are in the body's own axes.
+  const auto corners_of = [&](std::size_t first, double angle, Vec2 shift) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    Ring moved;
+    for (std::size_t i = 0; i < castle.size(); ++i) {
+      const Vec2 p = castle[(first + i) % castle.size()];
+      moved.push_back({c * p.x - s * p.y + shift.x, s * p.x + c * p.y + shift.y});
+    }
+    std::vector<std::pair<double, double>> corners;
+    for (const ConvexPiece& piece : convex_pieces(loop_of(moved, 0), {})) {
+      for (const PieceCorner& corner : piece) {
+        const Vec2 p = minus(corner.at, shift);
+        corners.emplace_back(std::round(1e6 * (c * p.x + s * p.y)), std::round(1e6 * (c * p.y - s * p.x)));
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  const auto due = corners_of(0, 0, {0, 0});
+  for (std::size_t first = 0; first < castle.size(); ++first) {
+    for (const double angle : {0.0, 0.7, 2.9}) CHECK(corners_of(first, angle, {1000.3, -300.1}) == due);
+  }
+}
