@@ -134,10 +134,10 @@ int compare_command(const Words& words) {
     read.push_back(reference);
     const std::string text = read_whole_file(reference);
     order.reference =
-        ReferenceFile{reference.string(), hash_of_file(reference),
+        ReferenceFile{reference.string(), hash_of_bytes(text),
                       read_reference_text(text, reference.string(), monitor_columns(order.scenes[0])), text};
   }
-  check_order(order);
+  Comparison comparison = planned(order);
   const bool overwrite = given->count("overwrite") != 0;
   prepare_output_folder(order.folder, overwrite, read);
   const FolderLock mine(order.folder);
@@ -154,7 +154,7 @@ int compare_command(const Words& words) {
             {"version", TALUS_VERSION}});
   Progress progress(log, given->count("quiet") != 0);
   order.progress = [&](double share) { progress.show(share, fmt::format("{} runs", order.scenes.size())); };
-  const Comparison comparison = compare(order);
+  compare(order, comparison);
   progress.clear();
 
   if (order.reference) write_whole_file(order.folder / reference_copy, order.reference->text);

@@ -40,7 +40,8 @@ std::optional<double> largest_distance(const std::vector<Vec2>& a, const std::ve
   return largest;
 }
 
-/// The runs of a comparison, made by a few workers. The baseline settles first and hands its geometry on.
+/// The runs of a comparison, made by a few workers. The scene of the baseline settles first; all runs, that
+/// of the baseline too, settle from the geometry it comes to, so that equal scenes have equal runs.
 class SideBySide {
  public:
   SideBySide(const ComparisonOrder& order, Comparison& comparison)
@@ -72,18 +73,32 @@ class SideBySide {
   void work() {
     for (std::size_t i = next_++; i < order_.scenes.size(); i = next_++) {
       try {
+        if (i == 0) baseline_geometry_.set_value(settle_baseline());
         make_run(i);
       } catch (...) {
         problems_[i] = std::current_exception();
       }
-      // A baseline that never came to settle leaves the others without its geometry, not waiting for it.
-      if (i == 0 && !handed_on_) hand_on({});
     }
   }
 
-  void hand_on(Geometry geometry) {
-    handed_on_ = true;
-    baseline_geometry_.set_value(std::move(geometry));
+  /// Nothing where there is none to hand on, or it comes to trouble, which its run will meet again and
+  /// record.
+  std::optional<Geometry> settle_baseline() {
+    if (!order_.scenes[0].settle) return std::nullopt;
+    try {
+      Simulation simulation(order_.scenes[0], settings());
+      if (simulation.settle([&] { return order_.interrupted != nullptr && *order_.interrupted; }))
+        return simulation.geometry();
+    } catch (const std::exception&) {
+    }
+    return std::nullopt;
+  }
+
+  RunSettings settings() const {
+    RunSettings settings;
+    settings.neighbour_skin = order_.neighbour_skin;
+    settings.largest_dt = comparison_.common_dt.value_or(0);
+    return settings;
   }
 
   void make_run(std::size_t i) {
@@ -92,15 +107,11 @@ class SideBySide {
     run.overrides = order_.overrides;
     run.overrides.push_back({order_.variation.pointer, order_.variation.values[i]});
     run.scene_hash = order_.scene_hash;
-    run.settings.neighbour_skin = order_.neighbour_skin;
-    run.settings.largest_dt = comparison_.common_dt.value_or(0);
+    run.settings = settings();
     run.clock = CpuClock::thread;
     run.interrupted = order_.interrupted;
     run.before_settling = [&](Simulation& simulation) { start_like_baseline(i, simulation); };
-    run.after_settling = [&](Simulation& simulation) {
-      settled_[i] = vertices_of(simulation);
-      if (i == 0) hand_on(simulation.geometry());
-    };
+    run.after_settling = [&](Simulation& simulation) { settled_[i] = vertices_of(simulation); };
     const double end = order_.scenes[i].time.end;
     run.progress = [&, i, end](double time) { tell_progress(i, time / end); };
     Simulation simulation(order_.scenes[i], run.settings);
@@ -109,16 +120,14 @@ class SideBySide {
   }
 
   void start_like_baseline(std::size_t i, Simulation& simulation) {
-    if (i == 0 || !order_.scenes[i].settle || !order_.scenes[0].settle) return;
-    const Geometry& geometry = geometry_.get();
-    if (geometry.unknowns.size() == simulation.geometry().unknowns.size()) {
-      simulation.take_geometry(geometry);
-      return;
-    }
+    if (!order_.scenes[i].settle) return;
+    const std::optional<Geometry>& geometry = geometry_.get();
+    if (!geometry) return;
+    const std::string why = simulation.take_geometry(*geometry);
+    if (why.empty() || i == 0) return;
     const std::lock_guard lock(mutex_);
-    comparison_.warnings.push_back(fmt::format(
-        "'{}' settled by itself: it has {} unknowns, the baseline has {}", order_.variation.values[i],
-        simulation.geometry().unknowns.size(), geometry.unknowns.size()));
+    comparison_.warnings.push_back(
+        fmt::format("'{}' settled by itself: {}", order_.variation.values[i], why));
   }
 
   void tell_progress(std::size_t i, double share) {
@@ -135,9 +144,8 @@ class SideBySide {
   std::vector<double> shares_;              ///< [run] of the simulated time
   std::vector<std::exception_ptr> problems_;
   std::atomic<std::size_t> next_ = 0;
-  bool handed_on_ = false;  ///< touched by the worker of the baseline only
-  std::promise<Geometry> baseline_geometry_;
-  std::shared_future<Geometry> geometry_ = baseline_geometry_.get_future().share();
+  std::promise<std::optional<Geometry>> baseline_geometry_;
+  std::shared_future<std::optional<Geometry>> geometry_ = baseline_geometry_.get_future().share();
   std::mutex mutex_;
 };
 
@@ -292,16 +300,19 @@ void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
 
 }  // namespace
 
-Comparison compare(const ComparisonOrder& order) {
+Comparison planned(const ComparisonOrder& order) {
   check_order(order);
   Comparison comparison;
   comparison.runs.resize(order.scenes.size());
   for (std::size_t i = 0; i < order.scenes.size(); ++i) comparison.runs[i].value = order.variation.values[i];
   vote_dt(order, comparison);
+  return comparison;
+}
+
+void compare(const ComparisonOrder& order, Comparison& comparison) {
   SideBySide(order, comparison).run();
   count_own_steps(order, comparison);
   evaluate(order, comparison);
-  return comparison;
 }
 
 }  // namespace talus

@@ -22,7 +22,7 @@ struct ReferenceFile {
 
 /// What is to be compared: one scene per value of the variation, the first one the baseline.
 struct ComparisonOrder {
-  std::filesystem::path folder;  ///< prepared already, and so are its subfolders
+  std::filesystem::path folder;  ///< for the runs prepared already, and so are its subfolders
   Variation variation;
   std::vector<Scene> scenes;        ///< [value]
   std::vector<Override> overrides;  ///< common to all
@@ -71,9 +71,12 @@ struct Comparison {
 /// Throws InputError when nothing could be compared: too few values, no monitor, no common column.
 void check_order(const ComparisonOrder& order);
 
-/// Runs the scenes side by side from the same settled geometry at the same time step. Checks the
-/// order first.
-Comparison compare(const ComparisonOrder& order);
+/// A comparison before its runs, with the step that all will take. Checks the order, and makes a simulation
+/// of each scene for once: what is wrong with one is found before anything is written.
+Comparison planned(const ComparisonOrder& order);
+
+/// Runs the scenes side by side from the same settled geometry, and evaluates them.
+void compare(const ComparisonOrder& order, Comparison& comparison);
 
 /// The evaluation alone, of runs that were made: fills in deviations and tolerances.
 void evaluate(const ComparisonOrder& order, Comparison& comparison);

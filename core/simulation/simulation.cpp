@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace talus {
@@ -21,6 +22,18 @@ Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
   motion.stress_yy = stress[1];
   motion.stress_xy = stress[2];
   return motion;
+}
+
+bool may_bond(const Scene& scene) {
+  if (scene.contact.component == nullptr) return false;
+  const Component& law = *scene.contact.component->component;
+  return std::ranges::any_of(scene.interface_values, [&](const std::vector<double>& values) {
+    for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
+      const std::string_view key = law.interface_parameters[i].key;
+      if (values[i] > 0 && (key == "cohesion" || key == "tensile_strength")) return true;
+    }
+    return false;
+  });
 }
 
 }  // namespace
@@ -36,10 +49,13 @@ const Scene& Simulation::scene() const {
   return state_->as_given ? *state_->as_given : state_->scene;
 }
 
-void Simulation::take_geometry(const Geometry& geometry) {
+std::string Simulation::take_geometry(const Geometry& geometry) {
   const NoSubnormals as_in_steps;
   State& s = *state_;
-  s.touch_as_drawn();
+  const Geometry mine = this->geometry();
+  if (geometry.unknowns.size() != mine.unknowns.size() || geometry.stars != mine.stars)
+    return "its bodies or patches are not those of the other";
+  if (may_bond(s.scene)) return "bonds form where bodies are drawn";
   const double* from = geometry.unknowns.data();
   for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
     const std::uint32_t index = s.numbering.inside(i);
@@ -54,8 +70,10 @@ void Simulation::take_geometry(const Geometry& geometry) {
     for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p, from += 2)
       s.motion.patch_displacement[p] = {from[0], from[1]};
   }
-  if (geometry.memory.size() == s.deformation.memory().size() && geometry.numbering == s.numbering.inner)
+  if (geometry.memory.size() == mine.memory.size() && geometry.own_end == mine.own_end &&
+      geometry.numbering == mine.numbering)
     s.deformation.set_memory(geometry.memory);
+  return {};
 }
 
 Geometry Simulation::geometry() const {
@@ -73,7 +91,10 @@ Geometry Simulation::geometry() const {
     for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
       const Vec2 displacement = s.motion.patch_displacement[p];
       geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
+      const Vec2 star = s.model.patch_star[p];
+      geometry.stars.insert(geometry.stars.end(), {star.x, star.y});
     }
+    geometry.own_end.push_back(ranges.own_end - ranges.patch_begin);
   }
   geometry.memory = s.deformation.memory();
   geometry.numbering = s.numbering.inner;

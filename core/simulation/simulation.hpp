@@ -125,7 +125,9 @@ struct RunSummary {
 /// Displacements and the like of every body, to start another run from the same settled geometry.
 struct Geometry {
   std::vector<double> unknowns;
+  std::vector<double> stars;             ///< [patch, component] m, in the order of their displacements
   std::vector<double> memory;            ///< of the materials; used where both have the same
+  std::vector<std::uint32_t> own_end;    ///< [body] of its patches, for the memory: elements go by it
   std::vector<std::uint32_t> numbering;  ///< of the bodies, for the memory
 };
 
@@ -141,8 +143,10 @@ class Simulation {
 
   const Scene& scene() const;
 
-  /// Starts from the geometry another run settled into; before settle().
-  void take_geometry(const Geometry& geometry);
+  /// Starts from the geometry another run settled into; before settle(). Takes nothing and returns why where
+  /// the scenes differ in their bodies' covers, or where bodies are bonded: bonds form where these are drawn,
+  /// and bear what they have moved since. Else "".
+  std::string take_geometry(const Geometry& geometry);
   Geometry geometry() const;
 
   /// The settle stage, if the scene asks for one; friction held stuck, then velocities and clock to zero.

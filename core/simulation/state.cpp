@@ -185,13 +185,6 @@ void Simulation::State::evaluate_contacts() {
   check_law();
 }
 
-/// Bonds form where bodies touch as they are drawn; where they hang by them they have come apart a little.
-void Simulation::State::touch_as_drawn() {
-  contacts.find_pairs(model, motion, 0, blocks.follow(model, contacts.drift(), motion));
-  contacts.evaluate(model, motion, {0, false, true, false});
-  contacts.seek_anew();
-}
-
 /// What rounding makes of a body at rest: its weight by 1e-12 of its width, and motion by 1e-14 of its width
 /// in a critical step.
 double Simulation::State::energy_floor() const {

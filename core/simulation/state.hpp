@@ -119,7 +119,6 @@ struct Simulation::State {
   StepSpan step_span() const;
   bool settled() const;
   void evaluate_contacts();
-  void touch_as_drawn();
   bool may_sleep() const;
   Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion}; }
   double energy_floor() const;

@@ -49,6 +49,48 @@ TEST_CASE("compare runs laws side by side from one geometry at one step", "[apps
   CHECK_THAT(doctor.err, Contains("holds several runs"));
 }
 
+TEST_CASE("equal scenes compare equal: the baseline settles as the others do", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.3, \"damping\": 30}"));
+  const std::vector<std::string> skewed{"--set",
+                                        "/bodies/1/polygon=[[0,0.01],[1,0.01],[1.4,1.01],[0.4,1.01]]"};
+  const Call call =
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b", skewed[0], skewed[1]});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  for (const char* file : {"history.csv", "energy.csv"}) {
+    CHECK(read_whole_file(scratch / "out/small-compare/a" / file) ==
+          read_whole_file(scratch / "out/small-compare/b" / file));
+  }
+  CHECK(json_of(scratch / "out/small-compare/compare.json")["runs"][1]["settled_difference [m]"] == 0);
+}
+
+TEST_CASE("runs whose patches are others settle by themselves, and say so", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.05, \"damping\": 30}"));
+  const Call call = call_talus(
+      scratch.folder(),
+      {"compare", "small.json", "--vary", "/cover/slivers=keep,merge", "--set",
+       R"(/cover={"model": "hexagonal", "size": 0.3})", "--set",
+       R"(/materials/rock={"density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.2})",
+       "--set", "/bodies/1/polygon=[[0,0.01],[1,0.01],[1,2.06],[0,2.06]]", "--set", "/time/end=0.02"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.err, Contains("'merge' settled by itself"));
+}
+
+TEST_CASE("a comparison that cannot be made removes no results", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b"}).code == 0);
+  const std::string before = read_whole_file(scratch / "out/small-compare/compare.csv");
+  const Call call = call_talus(scratch.folder(),
+                               {"compare", "small.json", "--vary", "/time/dt=1e-4,1e-300", "--overwrite"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("/time/dt of 1e-300 s makes"));
+  CHECK(read_whole_file(scratch / "out/small-compare/compare.csv") == before);
+}
+
 TEST_CASE("each run keeps its own step where the time settings vary", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

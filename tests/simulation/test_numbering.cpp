@@ -108,11 +108,23 @@ TEST_CASE("a settled geometry goes from one numbering to another", "[simulation]
   const Geometry geometry = crossed.geometry();
   Scene scene = stacks(true).read();
   Simulation next(scene, {});
-  next.take_geometry(geometry);
+  CHECK(next.take_geometry(geometry).empty());
   CHECK(next.geometry().unknowns == geometry.unknowns);
   next.advance();
   const std::size_t pushed = scene.loads[0].body;
   CHECK(next.body_motion(pushed).position.x == crossed.body_motion(pushed).position.x);
+}
+
+TEST_CASE("a settled geometry does not go to patches that stand elsewhere", "[simulation][numbering]") {
+  WorkingScene text;
+  text.cover = R"(hexagonal", "size": 0.3, "slivers": "keep)";
+  text.bodies = box("a", 0, 0, 1, 2.05);
+  const Simulation kept(text.read(), {});
+  text.cover = R"(hexagonal", "size": 0.3, "slivers": "merge)";
+  Simulation merged(text.read(), {});
+  const Geometry geometry = kept.geometry();
+  REQUIRE(geometry.unknowns.size() == merged.geometry().unknowns.size());
+  CHECK(merged.take_geometry(geometry) == "its bodies or patches are not those of the other");
 }
 
 TEST_CASE("a monitor sees what its body does, however bodies are numbered and covered",
