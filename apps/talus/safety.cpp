@@ -112,6 +112,16 @@ void warn_of_run(const Scene& scene, const Safety& safety) {
                   stood.factor, stood.lasted, listed(names_of(scene, stood.moving_little))));
 }
 
+bool has_loads_in_time(const Scene& scene) {
+  const auto varies = [](const Function& function) { return function.varies_in_time(); };
+  const auto any_varies = [&](const VectorFunction& vector) { return std::ranges::any_of(vector, varies); };
+  return any_varies(scene.base_acceleration) ||
+         std::ranges::any_of(scene.loads, [&](const PointLoad& load) { return any_varies(load.force); }) ||
+         std::ranges::any_of(scene.surface_loads, [&](const SurfaceLoad& load) {
+           return any_varies(load.traction) || varies(load.pressure);
+         });
+}
+
 void warn_of_scene(const Scene& scene) {
   if (!scene.stages.empty())
     print_warning("the stages of the scene are left out: strength is reduced from the start");
@@ -125,6 +135,11 @@ void warn_of_scene(const Scene& scene) {
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     if (is_driven(scene, body)) driven.push_back(scene.bodies[body].name);
   }
+  if (has_loads_in_time(scene))
+    print_warning(
+        "loads or a motion of the ground vary in time: a body that they move on for a while and that comes "
+        "to "
+        "rest has failed once it has come a twentieth of its width; how far it comes is for `talus run`");
   if (!moving.empty()) print_warning(fmt::format("velocities at the start are left out: {}", listed(moving)));
   if (!driven.empty())
     print_warning(
@@ -201,6 +216,8 @@ int safety_command(const Words& words) {
       read_scene_of(source, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
+  Simulation(with_reduced_strength(scene, 1),
+             RunSettings{});  // throws what is wrong, before anything is lost
   prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());
   const FolderLock mine(folder);
 

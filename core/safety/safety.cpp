@@ -25,10 +25,11 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
   bool reduced = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::string_view key = parameters[i].key;
-    if (key == "friction_angle") {
+    if (key.ends_with("friction_angle")) {
       reduced = reduced || values[i] > 0;
       values[i] = std::atan(std::tan(values[i]) / factor);
-    } else if (key == "friction_coefficient" || key == "cohesion" || key == "tensile_strength") {
+    } else if (key.ends_with("friction_coefficient") || key.ends_with("cohesion") ||
+               key.ends_with("tensile_strength")) {
       reduced = reduced || values[i] > 0;
       values[i] /= factor;
     }
@@ -102,16 +103,19 @@ class Reduction {
       }
       return 0.0;
     };
-    const bool brittle = std::ranges::any_of(scene_.interface_values, [&](const std::vector<double>& values) {
-      return value_of(values, "cohesion") > 0 && value_of(values, "softening_slip") == 0;
-    });
-    if (!brittle) return;
-    warnings_.emplace_back(
-        "cohesion of an interface is lost at once where it breaks, before friction bears its part: the "
-        "factor "
-        "is below that of limit equilibrium; `cohesive_overlap` with a softening_slip of some 1e-3 m lets "
-        "both "
-        "come to their strength");
+    constexpr double enough = 10;  // of the slip at which a bond has all of its strength
+    double wanted = 0;
+    for (const std::vector<double>& values : scene_.interface_values) {
+      const double slip = value_of(values, "cohesion") / value_of(values, "tangential_stiffness");
+      if (slip > 0 && std::isfinite(slip) && value_of(values, "softening_slip") < enough * slip)
+        wanted = std::max(wanted, enough * slip);
+    }
+    if (wanted == 0) return;
+    warnings_.push_back(fmt::format(
+        "cohesion of an interface is lost where it breaks before friction bears its part: the factor "
+        "may be below that of limit equilibrium; `cohesive_overlap` with a softening_slip of {:.2g} m "
+        "or more, ten times cohesion/tangential_stiffness, lets both come to their strength",
+        wanted));
   }
 
   /// What lacks a share of its strength gains at most that share of gravity.

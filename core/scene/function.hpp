@@ -2,6 +2,7 @@
 
 #include "geometry/vec2.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -59,6 +60,9 @@ struct Function {
   /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
   double integral(double time, Vec2 at) const;
   bool zero() const { return terms.empty(); }
+  bool varies_in_time() const {
+    return std::any_of(terms.begin(), terms.end(), [](const Product& term) { return term.time.has_value(); });
+  }
   /// Adds the shares of the way from one place to another at which a table over place has a point.
   void add_kinks(Vec2 from, Vec2 to, std::vector<double>& shares) const;
 };

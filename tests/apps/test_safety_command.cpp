@@ -92,6 +92,16 @@ TEST_CASE("talus safety overwrites nothing unasked, and refuses tolerances that 
   }
 }
 
+TEST_CASE("talus safety of a scene that has nothing to reduce removes no results", "[apps][safety]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "results");
+  scratch.write("results/safety.csv", "mine");
+  const Call call = reduce(scratch, {"--overwrite", "--set", "/interfaces/0/friction_angle=0"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("has friction, cohesion or tensile strength to reduce"));
+  CHECK(read_whole_file(scratch / "results/safety.csv") == "mine");
+}
+
 TEST_CASE("talus safety and compare replace no table that their scene reads", "[apps][safety][compare]") {
   const Scratch scratch;
   const std::string table = "t [s],a [m/s2]\n0,0\n1,0\n";
