@@ -9,13 +9,6 @@
 namespace talus {
 namespace {
 
-double distance(Vec2 point, Vec2 a, Vec2 b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double along = square > 0 ? ((point.x - a.x) * dx + (point.y - a.y) * dy) / square : 0;
-  const double share = std::clamp(along, 0.0, 1.0);
-  return std::hypot(point.x - a.x - share * dx, point.y - a.y - share * dy);
-}
-
 bool holds(const Box& box, Vec2 point) {
   return point.x >= box.low.x && point.x <= box.high.x && point.y >= box.low.y && point.y <= box.high.y;
 }
@@ -49,7 +42,7 @@ struct BoxedFace {
       const Ring& ring = loops[loop];
       if (distance(point, boxes[loop]) >= least) continue;
       for (std::size_t i = 0; i < ring.size(); ++i)
-        least = std::min(least, distance(point, ring[i], ring[(i + 1) % ring.size()]));
+        least = std::min(least, distance_from(point, ring[i], ring[(i + 1) % ring.size()]));
     }
     return least;
   }

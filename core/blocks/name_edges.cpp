@@ -31,10 +31,7 @@ std::vector<Segment> named_segments(const Block& domain, const std::vector<Cut>&
 }
 
 bool is_near(const Segment& segment, Vec2 point, double tolerance) {
-  const double dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;
-  const double length2 = dx * dx + dy * dy, x = point.x - segment.from.x, y = point.y - segment.from.y;
-  const double share = std::clamp((x * dx + y * dy) / length2, 0.0, 1.0);
-  return std::hypot(x - share * dx, y - share * dy) <= tolerance;
+  return distance_from(point, segment.from, segment.to) <= tolerance;
 }
 
 struct TreeEnd {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "geometry/vec2.hpp"
 
 #include <talus/cover_builder.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace talus {
 
-using Ring = std::vector<Vec2>;  ///< closed polygon, the last vertex joins the first
+using Ring = std::vector<Vec2>;  ///< closed, without repeating the first vertex; edge i runs from vertex i
 
 /// Signed area and the integrals of x, y, xx, xy, yy over a ring, about `centre`; negative for a clockwise
 /// ring.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
@@ -22,6 +23,14 @@ inline double cross(Vec2 p, Vec2 q) {
 
 inline double size_of(Vec2 p) {
   return std::sqrt(dot(p, p));
+}
+
+/// Of a point from a segment, which may be a point.
+inline double distance_from(Vec2 point, Vec2 from, Vec2 to) {
+  const Vec2 span = minus(to, from), way = minus(point, from);
+  const double square = dot(span, span);
+  const double share = square > 0 ? std::clamp(dot(way, span) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(way.x - share * span.x, way.y - share * span.y);
 }
 
 }  // namespace talus

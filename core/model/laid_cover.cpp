@@ -118,15 +118,6 @@ std::vector<std::pair<Vec2, Vec2>> sides_of(const GivenShape& given) {
   return sides;
 }
 
-/// m, of a point from a segment.
-double distance_from(Vec2 p, const std::pair<Vec2, Vec2>& side) {
-  const auto [from, to] = side;
-  const double dx = to.x - from.x, dy = to.y - from.y, square = dx * dx + dy * dy;
-  const double along = ((p.x - from.x) * dx + (p.y - from.y) * dy) / square;
-  const double lever = square > 0 ? std::clamp(along, 0.0, 1.0) : 0;
-  return std::hypot(p.x - from.x - lever * dx, p.y - from.y - lever * dy);
-}
-
 /// Contact sees nothing of a body but its boundary: it has to be where the body is, all of it, and the right
 /// way round.
 std::string fault_of_boundary(const LaidCover& cover, const GivenShape& given) {
@@ -144,8 +135,8 @@ std::string fault_of_boundary(const LaidCover& cover, const GivenShape& given) {
         return fmt::format("a boundary vertex names element {} of {} and side {} of {}", vertex.element,
                            cover.elements.size(), vertex.side, sides.size());
       area += (vertex.at.x * next.at.y - vertex.at.y * next.at.x) / 2;
-      const double off =
-          std::max(distance_from(vertex.at, sides[vertex.side]), distance_from(next.at, sides[vertex.side]));
+      const auto [from, to] = sides[vertex.side];
+      const double off = std::max(distance_from(vertex.at, from, to), distance_from(next.at, from, to));
       if (!(off <= near))
         return fmt::format(
             "its boundary at ({:.6g}, {:.6g}) m from the centroid is {:.3g} m off side {}, "

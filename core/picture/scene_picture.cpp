@@ -2,6 +2,7 @@
 
 #include "picture/palette.hpp"
 #include "picture/section.hpp"
+#include "scene/polygons.hpp"
 
 #include <fmt/format.h>
 
@@ -51,27 +52,17 @@ Vec2 middle_of(const std::vector<Vec2>& points) {
   return {sum.x / count, sum.y / count};
 }
 
-bool inside(const std::vector<Vec2>& ring, Vec2 point) {
-  bool in = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vec2 p = ring[i], q = ring[j];
-    if ((p.y > point.y) != (q.y > point.y) && point.x < p.x + (point.y - p.y) / (q.y - p.y) * (q.x - p.x))
-      in = !in;
-  }
-  return in;
-}
-
 /// Somewhere within a body, in its middle if that is within.
 Vec2 place_within(const std::vector<Vec2>& ring) {
   const Vec2 middle = middle_of(ring);
-  if (inside(ring, middle)) return middle;
+  if (contains({ring}, middle, 0)) return middle;
   Vec2 best = middle;
   double largest = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 p = ring[i], q = ring[(i + 1) % ring.size()], r = ring[(i + 2) % ring.size()];
     const double area = std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
     const Vec2 at = middle_of({p, q, r});
-    if (area > largest && inside(ring, at)) best = at, largest = area;
+    if (area > largest && contains({ring}, at, 0)) best = at, largest = area;
   }
   return best;
 }

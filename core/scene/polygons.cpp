@@ -163,12 +163,6 @@ void faults_of_holes(const Loops& loops, std::vector<ShapeFault>& faults) {
   }
 }
 
-double distance(Vec2 a, Vec2 b, Vec2 p) {
-  const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
 }  // namespace
 
 double signed_area(const Ring& ring) {
@@ -197,7 +191,7 @@ std::vector<ShapeFault> shape_faults(const Loops& loops) {
 
 bool contains(const Loops& loops, Vec2 point, double margin) {
   for (const Edge& edge : edges_of(loops)) {
-    if (distance(edge.from, edge.to, point) <= margin) return true;
+    if (distance_from(point, edge.from, edge.to) <= margin) return true;
   }
   bool inside = false;
   for (const Ring& ring : loops) inside = inside != within(ring, point);

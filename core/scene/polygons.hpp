@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/polygon.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
@@ -7,8 +8,6 @@
 #include <vector>
 
 namespace talus {
-
-using Ring = std::vector<Vec2>;  ///< closed, without repeating the first vertex; edge i runs from vertex i
 
 /// Loop 0 is the outer boundary, the others are holes; m.
 using Loops = std::vector<Ring>;
