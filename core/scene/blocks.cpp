@@ -169,15 +169,28 @@ class Expander {
   }
 
   /// Of units or an origin that do not fit.
+  /// Whether a segment has a point in a box (Liang–Barsky).
+  static bool passes(Vec2 from, Vec2 to, const Box& box) {
+    double first = 0, last = 1;
+    const auto within = [&](double at, double way, double low, double high) {
+      if (way == 0) return low <= at && at <= high;
+      const double enters = ((way > 0 ? low : high) - at) / way, leaves = ((way > 0 ? high : low) - at) / way;
+      first = std::max(first, enters);
+      last = std::min(last, leaves);
+      return first <= last;
+    };
+    return within(from.x, to.x - from.x, box.low.x, box.high.x) &&
+           within(from.y, to.y - from.y, box.low.y, box.high.y);
+  }
+
   void warn_of_drawing_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
     if (joints.drawing.empty()) return;
     std::vector<Vec2> points;
     for (std::size_t i = joints.first_of_drawing; i < joints.cuts.size(); ++i) {
       const std::vector<Vec2>& line = joints.cuts[i].points;
-      const Box box = box_around(line);
-      if (box.low.x <= domain.high.x && box.high.x >= domain.low.x && box.low.y <= domain.high.y &&
-          box.high.y >= domain.low.y)
-        return;
+      for (std::size_t p = 1; p < line.size(); ++p) {
+        if (passes(line[p - 1], line[p], domain)) return;
+      }
       points.insert(points.end(), line.begin(), line.end());
     }
     if (points.empty()) return;

@@ -32,6 +32,15 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
+/// Numbers that blanks, tabs or semicolons divide.
+bool divided_otherwise(std::string_view line, const std::vector<std::string_view>& fields) {
+  return line.find_first_of("0123456789") != std::string_view::npos &&
+         line.find_first_not_of("0123456789+-.eE,; \t\r") == std::string_view::npos &&
+         std::any_of(fields.begin(), fields.end(), [](std::string_view field) {
+           return field.find_first_of("; \t") != std::string_view::npos;
+         });
+}
+
 /// A name as it stands between commas, perhaps in quotes.
 std::string name_of(std::string_view field) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
@@ -69,6 +78,8 @@ class ColumnReader {
     if (remark) line.remove_prefix(1);
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() > most_columns) return fmt::format("expected at most {} columns", most_columns);
+    if (!remark && columns_.at.empty() && divided_otherwise(line, fields))
+      return "numbers with no comma between them: expected lines as 0.1,2.5, with a point in decimals";
     const bool any_number =
         std::any_of(fields.begin(), fields.end(), [](auto one) { return plain_number(one); });
     if (remark || (columns_.at.empty() && !any_number)) return take_head(fields);
@@ -101,14 +112,12 @@ class ColumnReader {
     count_ = count;
     std::vector<std::string> known;
     for (const std::vector<std::string>& names : heads_) {
-      for (std::size_t i = 1; i < names.size() && i < count; ++i) {
-        if (!column_.empty() && names[i] == column_) {
-          chosen_ = i;
-          return {};
-        }
-        if (names.size() == count) known.push_back(names[i]);
-      }
+      if (names.size() != count) continue;  // a remark with commas in it
+      known.insert(known.end(), names.begin() + 1, names.end());
+      const auto found = std::find(names.begin() + 1, names.end(), column_);
+      if (!column_.empty() && found != names.end()) chosen_ = static_cast<std::size_t>(found - names.begin());
     }
+    if (chosen_ != 0) return {};
     if (!column_.empty()) {
       return fmt::format("there is no column \"{}\" after the first;{} known: {}", column_,
                          did_you_mean(column_, known), listed(known));

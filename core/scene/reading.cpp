@@ -24,8 +24,8 @@ constexpr std::size_t longest_name = 200;  // it stands in every message and col
 }  // namespace
 
 bool check_name(const std::string& name, const std::string& pointer, Mistakes& mistakes) {
-  const bool blank = name.empty() || name.find_first_not_of(' ') == std::string::npos;
-  bool good = !blank && name != "*" && name.size() <= longest_name;
+  bool good = !name.empty() && name.front() != ' ' && name.back() != ' ' && name != "*" &&
+              name.size() <= longest_name;
   for (const char c : name) {
     if (std::string_view("/,.\"").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20)
       good = false;
@@ -33,7 +33,8 @@ bool check_name(const std::string& name, const std::string& pointer, Mistakes& m
   if (!good) {
     mistakes.add(
         pointer,
-        fmt::format("{} is no name: expected text of up to {} bytes without / , . \" and other than \"*\"",
+        fmt::format("{} is no name: expected text of up to {} bytes without / , . \", or blanks at its ends, "
+                    "and other than \"*\"",
                     shown(Json(name)), longest_name));
   }
   return good;

@@ -251,8 +251,13 @@ TEST_CASE("tables come from files beside the scene, and the resolved scene finds
   const Scratch scratch;
   scratch.write("quake.csv", "t, ax, ay\n0, 0, 1\n2, 6, 1\n");
   scratch.write("two:columns.csv", "0, 0\n1, 4\n");
+  scratch.write("run:1.csv", "t, a:b\n0, 0\n1, 4\n");
   Registry registry = sample::registry();
   const std::string text = load(R"([{"time": "quake.csv:ax"}, {"scale": 3, "time": "two:columns.csv"}])");
+  CHECK(
+      read_scene_text(load(R"([{"time": "run:1.csv:a:b"}, 0])"), (scratch / "scene.json").string(), registry)
+          .loads[0]
+          .force[0](1, {}) == 4);
   const Scene scene = read_scene_text(text, (scratch / "scene.json").string(), registry);
   CHECK(scene.loads[0].force[0](1, {}) == 3);
   CHECK(scene.loads[0].force[1](0.5, {}) == 6);
