@@ -31,7 +31,8 @@ StudyPlan steps_of(const Usage& usage, const po::variables_map& given, const Sce
   Registry registry = offered_registry(usage, given);
   const Scene scene =
       read_scene_of(source, registry, overrides_of(usage, given), given.count("allow-plugins") != 0);
-  const double most = scene.contact.component == nullptr ? 1 : table::safety_with_contact;
+  const double most = scene.contact.component == nullptr ? table::of(table::time, "safety").maximum
+                                                         : table::safety_with_contact;
   Variation variation{scene.time.dt ? "/time/dt" : "/time/safety", {}};
   for (const double factor : {4.0, 2.0, 1.0, 0.5, 0.25}) {
     const double value = factor * scene.time.dt.value_or(scene.time.safety);
@@ -66,6 +67,8 @@ int advise_command(const Words& words) {
   if (!given) return exit_code::ok;
   const double error = share_of(usage, text_option(*given, "error"));
   const SceneFile source = scene_file_of(*given);
+  if (given->count("vary") == 0 && given->count("sample") + given->count("seed") != 0)
+    throw UsageError(usage.command, "--sample and --seed are of what --vary names, which is missing");
   const StudyPlan plan = given->count("vary") != 0 ? plan_of(usage, *given) : steps_of(usage, *given, source);
   const Study study = make_study(usage, *given, words, plan, source);
   if (study.interrupted) {

@@ -39,7 +39,7 @@ int resume_command(const Words& words) {
   RunOrder order;
   order.folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   order.overrides = checkpoint.overrides;
-  order.scene_hash = hash_of_bytes(checkpoint.scene_text);
+  order.scene_hash = checkpoint.scene_hash;
   order.settings.threads = threads_of(usage, *given, checkpoint.threads);
   order.settings.neighbour_skin = checkpoint.neighbour_skin;
   order.from = &checkpoint;

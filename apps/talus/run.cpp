@@ -21,6 +21,7 @@ Checkpoint as_started(const SceneFile& source, const RunOrder& order, const Scen
   Checkpoint run;
   run.scene_file = std::filesystem::absolute(source.file);
   run.scene_text = source.text;
+  run.scene_hash = order.scene_hash;
   run.files = scene.files;
   run.overrides = order.overrides;
   run.allow_plugins = given.count("allow-plugins") != 0;
@@ -73,9 +74,9 @@ int run_command(const Words& words) {
 
   Scene read = read_scene_of(source, registry, order.overrides, given->count("allow-plugins") != 0, log);
   for (const std::string& warning : read.warnings) log.warning(warning);
+  order.scene_hash = hash_of_bytes(source.text);
   // A pipe cannot be read twice, so that nobody could go on from a state.
   if (std::filesystem::is_regular_file(file)) {
-    order.scene_hash = hash_of_bytes(source.text);
     order.checkpoints = CheckpointOrder{as_started(source, order, read, usage, *given), {}, {}};
   } else if (given->count("checkpoint-every") + given->count("wall-time") > 0) {
     throw UsageError(usage.command,

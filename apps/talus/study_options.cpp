@@ -100,7 +100,11 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
                                                     variations[i].pointer));
     }
   }
-  if (given.count("sample") == 0) return grid(variations);
+  if (given.count("sample") == 0) {
+    if (given.count("seed") != 0)
+      throw UsageError(usage.command, "--seed is of a --sample, which is missing");
+    return grid(variations);
+  }
   const std::uint64_t seed = given.count("seed") == 0 ? 1 : given["seed"].as<std::uint64_t>();
   const int count = given["sample"].as<int>();
   if (count < 1) throw UsageError(usage.command, fmt::format("--sample {}: allowed are 1 and more", count));

@@ -18,6 +18,7 @@ struct Checkpoint {
 
   std::filesystem::path scene_file;  ///< absolute; files that the scene names are sought from there
   std::string scene_text;
+  std::string scene_hash;                    ///< XXH3-128 of the file, whose comments may be no UTF-8
   std::map<std::string, std::string> files;  ///< Scene::files
   std::vector<Override> overrides;
   bool allow_plugins = false;

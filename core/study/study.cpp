@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 namespace talus {
@@ -37,6 +39,13 @@ bool files_unchanged(const Json& scene) {
     if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != hash) return false;
   }
   return true;
+}
+
+/// The same files as they are now; those that are gone have no hash.
+std::map<std::string, std::string> files_now(std::map<std::string, std::string> files) {
+  for (auto& [file, hash] : files)
+    hash = std::filesystem::is_regular_file(file) ? hash_of_file(file) : std::string();
+  return files;
 }
 
 struct StudyLibrary {
@@ -214,24 +223,46 @@ class Runs {
     run.interrupted = order_.interrupted;
     try {
       const HeldScene held = read(run.overrides);
+      refuse_changed_files(held.scene.files);
       const std::vector<StudyLibrary> libraries = libraries_of(held.scene);
       const auto made = [&] {
         return run_in(run.folder, run.overrides, run.scene_hash, held.scene.simd, libraries);
       };
       if (StudyRun before = made(); before.done) return before;
+      std::optional<Simulation> simulation;
+      try {
+        simulation.emplace(held.scene, run.settings);
+      } catch (const InputError& error) {
+        return refused(run.folder, error.what());
+      }
       std::vector<std::filesystem::path> read_files = held.scene.files_read();
       read_files.push_back(order_.reference);
       prepare_output_folder(run.folder, true, read_files);
-      Simulation simulation(held.scene, run.settings);
-      record_run(simulation, run);
+      record_run(*simulation, run);
+      refuse_changed_files(files_now(held.scene.files));
       return made();
     } catch (const SceneError& error) {
-      StudyRun refused;
-      refused.folder = run.folder;
-      refused.end = "refused";
-      refused.trouble = error.mistakes.empty() ? error.what() : error.mistakes[0].text();
-      refused.done = true;
-      return refused;
+      return refused(run.folder, error.mistakes.empty() ? error.what() : error.mistakes[0].text());
+    }
+  }
+
+  static StudyRun refused(const std::filesystem::path& folder, const std::string& why) {
+    StudyRun run;
+    run.folder = folder;
+    run.end = "refused";
+    run.trouble = why;
+    run.done = true;
+    return run;
+  }
+
+  /// Runs whose tables or meshes are not the same ones cannot be compared.
+  void refuse_changed_files(const std::map<std::string, std::string>& files) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [file, hash] : files) {
+      if (const auto [at, is_new] = files_.emplace(file, hash); !is_new && at->second != hash)
+        throw InputError(fmt::format(
+            "'{}' changed while the study ran, which would compare runs of different scenes: start it again",
+            file));
     }
   }
 
@@ -243,6 +274,7 @@ class Runs {
   const StudyOrder& order_;
   std::vector<StudyRun> runs_;
   std::vector<std::exception_ptr> problems_;
+  std::map<std::string, std::string> files_;  ///< that scenes name, and their hashes when first read
   std::atomic<std::size_t> next_ = 0;
   std::size_t done_ = 0;
   std::mutex mutex_;

@@ -1,4 +1,5 @@
 #include "apps/program.hpp"
+#include "files/hash.hpp"
 #include "files/whole_file.hpp"
 #include "output/scratch.hpp"
 
@@ -75,6 +76,21 @@ TEST_CASE("resume goes on with what Ctrl-C broke off, and results are those of o
   call = call_talus(scratch.folder(), {"info", "broken"});
   CHECK(call.code == 2);
   CHECK_THAT(call.err, Contains("the run in 'broken' is at its end"));
+}
+
+TEST_CASE("a run that is resumed tells the hash of its scene, whatever letters its comments are of",
+          "[apps][resume]") {
+  const Scratch scratch;
+  std::string text = small_scene();
+  text.insert(text.find("a block falls"),
+              "f\xfcr B\xf6"
+              "den ");
+  scratch.write("small.json", text);
+  std::vector<std::string> words = run_words("broken");
+  words.insert(words.end(), {"--wall-time", "0", "--set", "/time/end=0.1"});
+  REQUIRE(call_talus(scratch.folder(), words).code == 130);
+  REQUIRE(call_talus(scratch.folder(), {"resume", "broken", "--quiet"}).code == 0);
+  CHECK(json_of(scratch / "broken/run.json")["scene"]["xxh3_128"] == hash_of_bytes(text));
 }
 
 TEST_CASE("kill -9 at any moment leaves a checkpoint that goes on to the same bits", "[apps][resume]") {
@@ -208,6 +224,7 @@ TEST_CASE("a scene from a pipe runs, and leaves no state that nobody can go on f
     return call;
   };
   CHECK(run({}).code == 0);
+  CHECK(json_of(scratch / "out/run.json")["scene"]["xxh3_128"] == hash_of_bytes(small_scene()));
   const Call call = run({"--wall-time", "0"});
   CHECK(call.code == 2);
   CHECK_THAT(call.err, Contains("leaves no checkpoint: write the scene to a file"));

@@ -1,13 +1,17 @@
 #include "apps/program.hpp"
 #include "files/folder_lock.hpp"
+#include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "output/scratch.hpp"
 #include "plugin/simd_level.hpp"
+#include "scene/read.hpp"
+#include "study/study.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 using namespace talus;
 using Catch::Matchers::Contains;
@@ -21,11 +25,11 @@ TEST_CASE("A study runs every combination, lists what failed, and goes on where 
                                        "--vary",
                                        "/contact/model=overlap_area,vertex_edge",
                                        "--vary",
-                                       "/time/dt=2e-4,1e-4,5e-5,1e-2,-1"};
+                                       "/time/dt=2e-4,1e-4,5e-5,1e-2,1e-300"};
   const Call call = call_talus(scratch.folder(), words);
   INFO(call.out + call.err);
   REQUIRE(call.code == 0);
-  CHECK_THAT(call.out, Contains("order in /time/dt") && Contains("failed: model=overlap_area dt=-1") &&
+  CHECK_THAT(call.out, Contains("order in /time/dt") && Contains("failed: model=overlap_area dt=1e-300") &&
                            Contains("failed: model=vertex_edge dt=1e-2"));
   const auto study = json_of(scratch / "out/small-study/study.json");
   REQUIRE(study["runs"].size() == 10);
@@ -98,6 +102,30 @@ TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "1e-9%", "--quiet"}).code == 6);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
+}
+
+TEST_CASE("A study does not go on with a table that was changed while it ran", "[apps][study]") {
+  const Scratch scratch;
+  const std::filesystem::path table = scratch.write("a.csv", "0,1\n60,1\n");
+  StudyOrder order;
+  order.folder = scratch / "study";
+  order.plan = grid({parse_variation("/time/dt=2e-4,1e-4")});
+  int read = 0;
+  order.read = [&](const std::vector<Override>& overrides) {
+    if (++read == 2) scratch.write("a.csv", "0,2\n60,2\n");
+    HeldScene held{std::make_unique<Registry>(), {}};
+    load_folders(*held.registry, std::array{std::filesystem::path(TALUS_PLUGINS)});
+    std::vector<Override> all = overrides;
+    all.push_back({"/base_acceleration", R"([{"time": ")" + table.string() + R"("}, 0])"});
+    held.scene = read_scene_text(small_scene(), "small.json", *held.registry, {all, false});
+    return held;
+  };
+  try {
+    make_runs(order);
+    FAIL("went on");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Contains("a.csv' changed while the study ran"));
+  }
 }
 
 TEST_CASE("A study refuses what it cannot measure", "[apps][study]") {
