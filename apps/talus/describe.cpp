@@ -50,6 +50,11 @@ void print_section(const Part& section) {
     for (const RegisteredComponent& entry : registry.components()) names.emplace_back(entry.component->name);
     for (const Part& part : parts) names.push_back(part.pointer);
   }
+  for (const RefusedLibrary& refused : registry.refused) {
+    if (refused.file.stem().string() == "lib" + name)
+      throw UsageError(usage.command, fmt::format("there is nothing named '{}': {} was refused: {}", name,
+                                                  refused.file.string(), refused.reason));
+  }
   throw UsageError(usage.command, fmt::format("there is nothing named '{}'{}\n       known are: {}", name,
                                               guess(name, names), listed(names)));
 }

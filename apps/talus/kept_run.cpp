@@ -5,6 +5,7 @@
 #include "files/input_error.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ namespace {
 /// Folders of libraries that the run was started with. A checkpoint may come from anybody.
 void refuse_unasked_folders(const Checkpoint& checkpoint,
                             const std::vector<std::filesystem::path>& searched) {
+  std::string folders, options;
   for (const std::filesystem::path& folder : checkpoint.plugin_folders) {
     const auto same = [&](const std::filesystem::path& other) {
       std::error_code none;
@@ -24,12 +26,15 @@ void refuse_unasked_folders(const Checkpoint& checkpoint,
     };
     if (!std::filesystem::is_directory(folder) || std::any_of(searched.begin(), searched.end(), same))
       continue;
-    throw LibrariesNotAllowed(
-        SceneError({{checkpoint.scene_file.string(), 0, 0, "",
-                     fmt::format("the run was started with libraries of {}, which run with "
-                                 "your rights: give --allow-plugins, or --plugin-path {}",
-                                 folder.string(), folder.string())}}));
+    folders += (folders.empty() ? "" : " and ") + folder.string();
+    options += " --plugin-path " + shell_word(folder.string());
   }
+  if (folders.empty()) return;
+  throw LibrariesNotAllowed(
+      SceneError({{checkpoint.scene_file.string(), 0, 0, "",
+                   fmt::format("the run was started with libraries of {}, which run with "
+                               "your rights: give --allow-plugins, or{}",
+                               folders, options)}}));
 }
 
 Registry registry_of(const Checkpoint& checkpoint, std::vector<std::filesystem::path> folders,

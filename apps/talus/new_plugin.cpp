@@ -5,6 +5,8 @@
 #include "plugin_templates.hpp"
 #include "scene_options.hpp"
 
+#include "text/shell_word.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -166,15 +168,19 @@ int new_plugin_command(const Words& words) {
   }
   // Beside it first, so that what has the name is whole.
   const fs::path unfinished = folder.string() + ".unfinished";
-  fs::remove_all(unfinished);
+  if (fs::exists(unfinished)) {
+    throw InputError(
+        fmt::format("'{}' is in the way: nothing was written; move it, or take another NAME or --out DIR",
+                    unfinished.string()));
+  }
   write_files(unfinished, kind, name);
   fs::rename(unfinished, folder);
+  const std::string from = shell_word(folder.string()), build = shell_word((folder / "build").string());
   fmt::print(
       "{} {} in {}\n"
       "  its law is in the marked lines of {}.cpp; build and test it with\n"
-      "  cmake -S {} -B {}/build && cmake --build {}/build && ctest --test-dir {}/build\n",
-      kind.in_words, name, folder.string(), name, folder.string(), folder.string(), folder.string(),
-      folder.string());
+      "  cmake -S {} -B {} && cmake --build {} && ctest --test-dir {}\n",
+      kind.in_words, name, folder.string(), name, from, build, build, build);
   return exit_code::ok;
 }
 

@@ -295,8 +295,8 @@ void check_friction_limit(const Subject& subject, Trial& trial) {
       // After 10 mm and more at 1 m/s and more all springs have reached their limit, and what grows with the
       // speed its end.
       if (std::abs(speed) < 1) continue;
-      trial.at_most(0.9 * mu * e.on(1).y, std::abs(e.on(1).x) + rounded,
-                    "nine tenths of μ P [N/m], which the force along the base reaches");
+      trial.at_most(0.9 * mu * e.on(1).y - std::abs(e.on(1).x), rounded,
+                    "what the force along the base lacks of nine tenths of μ P [N/m]");
     }
     if (mu > 0) expect_held(trial, subject, interface, mu);
     for (const HeldPair& pair : random_pairs(36)) {

@@ -151,7 +151,7 @@ class MohrCoulomb final : public Material {
     if (strength.dilation_angle > strength.friction_angle) {
       std::snprintf(
           words, sizeof words,
-          "dilation_angle is %g deg, more than friction_angle, %g deg, which would make energy out of "
+          "dilation_angle is %.12g deg, more than friction_angle, %.12g deg, which would make energy out of "
           "nothing; give at most the friction angle",
           strength.dilation_angle * degrees, strength.friction_angle * degrees);
       throw std::invalid_argument(words);

@@ -107,8 +107,13 @@ TEST_CASE("a new plugin is refused in words, and nothing is written", "[apps]") 
   fs::create_directory(scratch / "there");
   CHECK_THAT(refused({"contact", "there"}), Contains("exists: nothing was written") && Contains("--out"));
   CHECK(fs::is_empty(scratch / "there"));
+  fs::create_directory(scratch / "mine.unfinished");
+  scratch.write("mine.unfinished/notes.txt", "mine");
+  CHECK_THAT(refused({"contact", "mine"}), Contains("mine.unfinished' is in the way"));
+  CHECK(fs::exists(scratch / "mine.unfinished/notes.txt"));
   for (const auto& entry : fs::directory_iterator(scratch.folder())) {
     INFO(entry.path().string());
-    CHECK((entry.path().filename() == "there" || entry.path().extension() == ".txt"));
+    CHECK((entry.path().stem() == "mine" || entry.path().filename() == "there" ||
+           entry.path().extension() == ".txt"));
   }
 }
