@@ -163,6 +163,12 @@ void say_result(const Scene& scene, const Safety& safety) {
       print_warning(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",
                                 fallen.factor, fallen.trouble));
     if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen.factor, listed(names));
+    if (fallen.stands_again)
+      print_warning(
+          fmt::format("what failed at {:.4g} came {:.3g} m and stands again: the factor is that of a "
+                      "twentieth of its width, "
+                      "of the size of its elements where it has many, and no collapse that goes on",
+                      fallen.factor, fallen.displacement));
   } else if (safety.falls) {
     fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
                1 / *safety.falls);

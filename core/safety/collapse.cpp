@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-constexpr double seen = 1e-3;     ///< share of the detail
+constexpr double seen = 1e-3;     ///< share of the width
 constexpr double lost = 0.05;     ///< share of the width: whatever stops further on has failed, too
 constexpr double steady = 0.45;   ///< of the way, in the second half of the time: one half at constant speed
 constexpr double kept = 0.9;      ///< of the speed in the middle, at the end
@@ -62,10 +62,8 @@ Pieces::Pieces(const Simulation& settled) {
       points[fragment[part]].push_back(point.position);
     });
     for (const Ring& ring : points)
-      pieces_.push_back({body,
-                         smallest_width(ring),
-                         std::min(smallest_width(ring), settled.body_width(body)),
-                         {!driven[0], !driven[1]}});
+      pieces_.push_back(
+          {body, std::min(smallest_width(ring), settled.body_width(body)), {!driven[0], !driven[1]}});
   }
 }
 
@@ -86,11 +84,11 @@ PieceMotions Pieces::motions(const Simulation& simulation) const {
 }
 
 Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
-  const double way = end.moved[piece];
-  if (way > lost * pieces_[piece].width) return Course::failed;
+  const double way = end.moved[piece], share = way / pieces_[piece].width;
   const double lately = way - middle.moved[piece];
-  const bool far = way > seen * pieces_[piece].detail,
+  const bool far = share > seen,
              goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
+  if (share > lost) return lately > 1e-3 * way ? Course::failed : Course::stopped;
   if (goes_on) return far ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
   const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
@@ -98,13 +96,13 @@ Course Pieces::course(std::size_t piece, const PieceMotions& middle, const Piece
 }
 
 double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
-  return std::sqrt(seen * pieces_[piece].detail / end.moved[piece]);
+  return std::sqrt(seen * pieces_[piece].width / end.moved[piece]);
 }
 
 double Pieces::time_to_tell(double acceleration) const {
-  double detail = 0;
-  for (const FollowedPiece& piece : pieces_) detail = std::max(detail, piece.detail);
-  return std::sqrt(2 * seen * detail / acceleration);
+  double width = 0;
+  for (const FollowedPiece& piece : pieces_) width = std::max(width, piece.width);
+  return std::sqrt(2 * seen * width / acceleration);
 }
 
 }  // namespace talus

@@ -13,8 +13,7 @@ bool is_driven(const Scene& scene, std::size_t body);
 /// A body, or a fragment that joints cut out of it.
 struct FollowedPiece {
   std::size_t body;
-  double width;                ///< m, the smallest across it
-  double detail;               ///< m, that, or the size of its elements where that is less
+  double width;                ///< m, the smallest across it; the size of its elements where that is less
   std::array<bool, 2> counts;  ///< whether motion along x, y does: not where the scene drives the body
 };
 
@@ -23,7 +22,7 @@ struct PieceMotions {
   std::vector<double> moved, speed;
 };
 
-enum class Course { rests, goes_on, failed };
+enum class Course { rests, goes_on, failed, stopped };  ///< the last failed, too, and has come to rest
 
 /// The pieces of a scene that can fail, followed by all their vertices from one geometry on.
 class Pieces {

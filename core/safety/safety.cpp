@@ -189,6 +189,7 @@ class Reduction {
       if (bodies.empty() || bodies.back() != body) bodies.push_back(body);
     };
     double least = std::numeric_limits<double>::infinity();
+    bool goes_on = false;
     for (std::size_t i = 0; i < pieces_->all().size(); ++i) {
       const std::size_t body = pieces_->all()[i].body;
       if (end.moved[i] > result.displacement) {
@@ -196,13 +197,15 @@ class Reduction {
         result.body = body;
       }
       const Course course = pieces_->course(i, middle, end);
-      if (course == Course::failed) add(result.moving, body);
+      if (course == Course::failed || course == Course::stopped) add(result.moving, body);
+      goes_on = goes_on || course == Course::failed;
       if (course != Course::goes_on) continue;
       const double to_tell = pieces_->times_to_tell(i, end);
       least = std::min(least, to_tell);
       if (to_tell < last_look * longer) add(result.moving_little, body);
     }
     result.collapsed = !result.moving.empty();
+    result.stands_again = result.collapsed && !goes_on;
     return least;
   }
 

@@ -32,6 +32,7 @@ struct ReducedRun {
   double kinetic = 0;                      ///< J/m at the end
   double lasted = 0;                       ///< s
   std::vector<std::size_t> moving;         ///< bodies that failed, where it collapsed
+  bool stands_again = false;               ///< all of these have come to rest
   std::vector<std::size_t> moving_little;  ///< bodies that move on too slowly to tell
   std::string trouble;                     ///< what stopped it, if anything did
   std::vector<MovedPart> parts;            ///< of all bodies, where it collapsed of itself
@@ -59,9 +60,9 @@ struct Safety {
 /// theirs, and last as long as the scene says, or up to eight times as long where a body goes on that has not
 /// yet come far enough to tell. What counts is how far the vertices of a body, or of what joints cut out of
 /// one, have come from that geometry, along axes along which nothing drives it. It has failed if one moved by
-/// more than 1/20 of its width, wherever it stopped, or goes on: by more than 1/1000 of its width, of one of
-/// many elements of their size where that is less, more than 0.45 of it in the second half of the time, and
-/// at the end at more than 0.9 of the speed in the middle. The scene collapses if one has.
+/// more than 1/20 of its width, of one of many elements of their size where that is less, wherever it
+/// stopped, or goes on: by more than 1/1000 of its width, more than 0.45 of it in the second half of the
+/// time, and at the end at more than 0.9 of the speed in the middle. The scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus

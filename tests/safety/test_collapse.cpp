@@ -21,7 +21,8 @@ TEST_CASE("A piece that slows down goes on until it rests or has come far", "[sa
                         Case{0.01, 0.1, 0.016, 0.05, Course::goes_on},    // at half of it
                         Case{0.01, 0.1, 0.012, 0.05, Course::rests},      // hardly any way in the second half
                         Case{0.01, 0.1, 0.016, 0.01, Course::rests},      // nearly at rest
-                        Case{0.03, 0.1, 0.06, 0.01, Course::failed},      // far, wherever it stops
+                        Case{0.03, 0.1, 0.06, 0.01, Course::failed},      // far
+                        Case{0.06, 0.1, 0.06, 0, Course::stopped},        // and then at rest
                         Case{0.0001, 0.1, 0.0002, 0.1, Course::goes_on},  // steady, too little to tell
                         Case{0.0001, 0.1, 0.00016, 0.05, Course::rests}}) {  // slower, and too little to tell
     INFO(c.moved_end << " m, " << c.speed_end << " m/s");
