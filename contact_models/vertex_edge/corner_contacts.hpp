@@ -43,14 +43,20 @@ inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along
   return dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
 }
 
+/// How far above a side a vertex still stands on it, m: held by a bond, and with what a step may have torn
+/// that off, so that it is seen to break.
+struct BondReach {
+  double held, seen;
+};
+
 /// Vertices that stand on (or, within `bond_reach`, just above) a side of the other piece. A corner against a
 /// corner is resolved to an edge as in DDA: only sides that face the corner can carry it, and of those the
 /// one it is least deep behind; where both corners then stand on each other's edges each spring counts half.
 class CornerFinder {
  public:
   /// Of one of the piece pairs of a pair of bodies; no bond reaches further than `farthest` m.
-  template <class BondReach>
-  void find(std::span<const PiecePairGeometry> pieces, std::uint32_t entry, const BondReach& bond_reach,
+  template <class ReachOf>
+  void find(std::span<const PiecePairGeometry> pieces, std::uint32_t entry, const ReachOf& bond_reach,
             double farthest, std::vector<CornerContact>& found) {
     const PiecePairGeometry& geometry = pieces[entry];
     const std::size_t first = found.size();
@@ -98,7 +104,7 @@ class CornerFinder {
   }
 
   [[gnu::always_inline]] static void stand(const Piece& own, const Piece& other, const Vertex& vertex,
-                                           double bond_reach, CornerContact contact,
+                                           BondReach bond_reach, CornerContact contact,
                                            std::vector<CornerContact>& found) {
     const std::uint32_t v = contact.vertex;
     const Point at = own.at(v), outward = vertex.outward();
@@ -109,7 +115,7 @@ class CornerFinder {
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
       const double depth = other.depth(k, at);
-      if (depth <= 0 && depth <= -bond_reach) return;
+      if (depth <= 0 && depth <= -bond_reach.seen) return;
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
       const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
@@ -118,7 +124,7 @@ class CornerFinder {
       contact.side = k;
       contact.depth = depth;
     }
-    const double sought = std::max(contact.depth, bond_reach);
+    const double sought = std::max(contact.depth, bond_reach.held);
     double edge = vertex.shorter;
     if (!vertex.divided && (nearest > edge || sought > flush * edge))
       edge = shorter_edge(own, v);   // or it need not be known

@@ -59,7 +59,6 @@ class VertexEdge final : public ContactModel {
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto work = std::make_unique<Workspace>();
     work->reach_of_bonds = reach_of_bonds(batch.interfaces, batch.hold_stick);
-    work->bonds_break = batch.bonds_form && !batch.hold_stick && any_bond(batch.interfaces);
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
@@ -83,7 +82,6 @@ class VertexEdge final : public ContactModel {
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
     double reach_of_bonds = 0;  ///< m, or [-] of springs given directly
-    bool bonds_break = false;   ///< though they still form
     CornerFinder finder;
   };
 
@@ -101,32 +99,18 @@ class VertexEdge final : public ContactModel {
       report.slip_loss += old.stored + old.pulled;
     }
     std::uint32_t count = 0;
-    const auto keep = [&](const SpringHistory& history, const ContactReport& seen) {
+    for (const CornerContact& contact : work.found) {
+      SpringHistory history = born(batch, contact, work);
+      ContactReport seen{};
+      if (!act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report)) continue;
       if (count < pair.slot_capacity) {
         write(history, loads.history + (pair.slot_start + count) * spring_doubles);
         if (loads.reports != nullptr) loads.reports[pair.slot_start + count] = seen;
       }
       ++count;
-    };
-    for (const CornerContact& contact : work.found) {
-      SpringHistory history = born(batch, contact, work);
-      ContactReport seen{};
-      const bool acts = act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report);
-      if (acts) {
-        keep(history, seen);
-      } else if (work.bonds_break) {
-        keep(broken(history.key), {});
-      }
-    }
-    // While bonds form nobody else would know which have broken.
-    for (const SpringHistory& old : work.old) {
-      const auto is_it = [&](const CornerContact& contact) { return old.key == 1.0 + contact.key; };
-      if (work.bonds_break && std::ranges::none_of(work.found, is_it)) keep(broken(old.key), {});
     }
     report.contact_count = count;
   }
-
-  static SpringHistory broken(double key) { return {key, 0, 0, 0, 0, 0}; }
 
   static void read_history(const ContactBatch& batch, const BodyPair& pair, std::vector<SpringHistory>& old) {
     old.clear();
@@ -156,16 +140,16 @@ class VertexEdge final : public ContactModel {
     for (std::uint32_t e = 0; e < entries; ++e) {
       const double sides[2] = {longest_side(all[e].piece[0]), longest_side(all[e].piece[1])};
       const double touching = batch.bonds_form ? 1e-12 * std::min(sides[0], sides[1]) : 0.0;
-      const double widest =
+      const double bonded =
           direct_ ? work.reach_of_bonds * std::max(sides[0], sides[1]) : work.reach_of_bonds;
-      // As far as a step can open it beyond, for what breaks is booked when it is found to have.
-      const double bonded = widest > touching ? widest + batch.dt * fastest_apart(all[e]) : widest;
-      const auto bond_reach = [&, bonded, touching](std::uint32_t key) {
-        if (bonded == touching) return touching;  // no need to know who is bonded
+      const double seen = bonded > touching ? bonded + batch.dt * fastest_apart(all[e]) : touching;
+      const auto bond_reach = [&, bonded, touching, seen](std::uint32_t key) {
+        if (bonded == touching) return BondReach{touching, touching};  // no need to know who is bonded
         const SpringHistory* old = find_old(work.old, key);
-        return old != nullptr && old->intact == 1 ? bonded : touching;
+        return old != nullptr && old->intact == 1 ? BondReach{bonded, std::max(bonded, seen)}
+                                                  : BondReach{touching, touching};
       };
-      work.finder.find(all, e, bond_reach, std::max(bonded, touching), work.found);
+      work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
     drop_repeated(work.found);
   }
@@ -214,15 +198,6 @@ class VertexEdge final : public ContactModel {
       if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
     }
     return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
-  }
-
-  static bool any_bond(const Interfaces& interfaces) {
-    const std::uint32_t surfaces = interfaces.surface_count;
-    for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
-      const Interface interface = read(interfaces.value + interfaces.row[i] * interfaces.parameter_count);
-      if (interface.cohesion > 0 || interface.tensile > 0) return true;
-    }
-    return false;
   }
 
   static const SpringHistory* find_old(const std::vector<SpringHistory>& old, std::uint32_t key) {

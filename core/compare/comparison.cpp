@@ -87,8 +87,12 @@ class SideBySide {
     if (!order_.scenes[0].settle) return std::nullopt;
     try {
       Simulation simulation(order_.scenes[0], settings());
-      if (simulation.settle([&] { return order_.interrupted != nullptr && *order_.interrupted; }))
+      if (simulation.settle([&] { return order_.interrupted != nullptr && *order_.interrupted; })) {
+        const std::lock_guard lock(mutex_);
+        for (const std::string& warning : simulation.summary().warnings)
+          comparison_.warnings.push_back(fmt::format("the geometry that all start from: {}", warning));
         return simulation.geometry();
+      }
     } catch (const std::exception&) {
     }
     return std::nullopt;
@@ -120,10 +124,10 @@ class SideBySide {
   }
 
   void start_like_baseline(std::size_t i, Simulation& simulation) {
-    if (!order_.scenes[i].settle) return;
+    if (!order_.scenes[i].settle || !order_.scenes[0].settle) return;
     const std::optional<Geometry>& geometry = geometry_.get();
-    if (!geometry) return;
-    const std::string why = simulation.take_geometry(*geometry);
+    const std::string why =
+        geometry ? simulation.take_geometry(*geometry) : "there is no geometry to start from";
     if (why.empty() || i == 0) return;
     const std::lock_guard lock(mutex_);
     comparison_.warnings.push_back(

@@ -33,7 +33,7 @@ std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size
   compare("stored", one.stored, other.stored);
   compare("slip_loss", one.slip_loss, other.slip_loss);
   compare("damping_power", one.damping_power, other.damping_power);
-  if (one.damping_power != 0) compare("damping_force", one.damping_force, other.damping_force);
+  if (one.contact_count != 0) compare("damping_force", one.damping_force, other.damping_force);
   compare("gap", one.gap, other.gap);
   if (found || one.contact_count == 0) return found;
   const BodyPair& pair = batch.pairs[i];

@@ -56,13 +56,14 @@ struct Safety {
 };
 
 /// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
-/// All runs start from the geometry that the scene settles into with its full strength, settle once more with
-/// theirs, and last as long as the scene says, or up to eight times as long where a body goes on that has not
-/// yet come far enough to tell. What counts is how far the vertices of a body, or of what joints cut out of
-/// one, have come from that geometry, along axes along which nothing drives it. It has failed if one moved by
-/// more than 1/20 of its width, of one of many elements of their size where that is less, wherever it
-/// stopped, or goes on: by more than 1/1000 of its width, more than 0.45 of it in the second half of the
-/// time, and at the end at more than 0.9 of the speed in the middle. The scene collapses if one has.
+/// All runs start from the geometry that the scene settles into with its full strength (bonded ones from
+/// where bodies are drawn, for bonds know no other start), settle once more with theirs, and last as long as
+/// the scene says, or up to eight times as long where a body goes on that has not yet come far enough to
+/// tell. What counts is how far the vertices of a body, or of what joints cut out of one, have come from that
+/// geometry, along axes along which nothing drives it. It has failed if one moved by more than 1/20 of its
+/// width, of one of many elements of their size where that is less, wherever it stopped, or goes on: by more
+/// than 1/1000 of its width, more than 0.45 of it in the second half of the time, and at the end at more than
+/// 0.9 of the speed in the middle. The scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus

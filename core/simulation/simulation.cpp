@@ -30,7 +30,7 @@ bool may_bond(const Scene& scene) {
   return std::ranges::any_of(scene.interface_values, [&](const std::vector<double>& values) {
     for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
       const std::string_view key = law.interface_parameters[i].key;
-      if (values[i] > 0 && (key == "cohesion" || key == "tensile_strength")) return true;
+      if (values[i] > 0 && (key.ends_with("cohesion") || key.ends_with("tensile_strength"))) return true;
     }
     return false;
   });
@@ -55,7 +55,7 @@ std::string Simulation::take_geometry(const Geometry& geometry) {
   const Geometry mine = this->geometry();
   if (geometry.unknowns.size() != mine.unknowns.size() || geometry.stars != mine.stars)
     return "its bodies or patches are not those of the other";
-  if (may_bond(s.scene)) return "bonds form where bodies are drawn";
+  if (may_bond(s.scene)) return "bonds may form, and do so where bodies are drawn";
   const double* from = geometry.unknowns.data();
   for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
     const std::uint32_t index = s.numbering.inside(i);

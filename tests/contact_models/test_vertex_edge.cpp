@@ -442,21 +442,6 @@ TEST_CASE("A bond under tension bears less along the edge: c l + N tan phi", "[v
   }
 }
 
-TEST_CASE("What breaks while bonds form and nothing is held stays broken", "[vertex_edge][bonds]") {
-  // It falls on the floor, whose bonds are too weak for its bounce, and is then pushed.
-  WorkingScene text = bonded_block(R"("friction_angle": 0, "normal_damping": 0, "tangential_damping": 0,
-      "cohesion": 1e5, "tensile_strength": 1e3)");
-  text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," + box("a", 0, 0.02, 1, 0.52);
-  text.time = R"({"end": 0.2})";
-  text.rest += R"("settle": {"duration": 3, "damping": 5, "hold_stick": false},
-                  "loads": [{"body": "a", "point": [0.5, 0.27], "force": [1e4, 0]}],)";
-  Simulation simulation(text.read(), {});
-  REQUIRE(simulation.settle());
-  while (simulation.advance()) {
-  }
-  CHECK(simulation.body_motion(1).velocity.x == Approx(2).epsilon(1e-3));
-}
-
 TEST_CASE("The step in which a bond breaks is booked as a whole", "[vertex_edge][bonds]") {
   for (const char* way : {"[0, 0.06]", "[0.06, 0]"}) {
     INFO(way);

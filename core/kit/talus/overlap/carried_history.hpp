@@ -117,8 +117,7 @@ class CarriedHistory {
   /// was one with it.
   bool could_be(std::uint32_t now, std::uint32_t old) const {
     if (!near(now, old)) return false;
-    const double strips = old_[old].strips;
-    if (carried_[now].strips != strips && named(carried_, strips) > 0) return false;
+    if (at_home_[old] != 0 && carried_[now].strips != old_[old].strips) return false;
     const GroupSpan& span = spans_[now];
     const Point from = Point{old_[old].x, old_[old].y} - span.centre;
     if (spans_.size() == 1 && old_.size() == 1) return true;
@@ -135,12 +134,17 @@ class CarriedHistory {
   /// neighbours: the strips tell which is which as long as they touch. A strip that touches several pieces of
   /// a body may have several contacts, which place tells apart.
   void carry_to_same_strips() {
+    at_home_.clear();
     told_.clear();
-    for (const FrictionHistory& old : old_)
-      told_.push_back(named(carried_, old.strips) == 1 && named(old_, old.strips) == 1 ? 1 : 0);
+    for (const FrictionHistory& old : old_) {
+      const std::ptrdiff_t now = named(carried_, old.strips);
+      at_home_.push_back(now > 0 ? 1 : 0);
+      told_.push_back(now == 1 && named(old_, old.strips) == 1 ? 1 : 0);
+    }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < old_.size(); ++i) {
       if (told_[i] == 0) {
+        at_home_[kept] = at_home_[i];
         old_[kept++] = old_[i];
         continue;
       }
@@ -162,6 +166,7 @@ class CarriedHistory {
   std::vector<GroupSpan> spans_;
   std::vector<FrictionHistory> old_;  ///< in the end those that the strips did not tell
   std::vector<char> told_;            ///< [old]
+  std::vector<char> at_home_;         ///< [old] whether its strips still touch
 };
 
 }  // namespace talus::overlap
