@@ -222,8 +222,7 @@ int safety_command(const Words& words) {
       read_scene_of(source, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
-  Simulation(with_reduced_strength(scene, 1),
-             RunSettings{});  // throws what is wrong, before anything is lost
+  const Simulation sound(with_reduced_strength(scene, 1), {});  // or throws, before anything is lost
   prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());
   const FolderLock mine(folder);
 
