@@ -110,10 +110,9 @@ std::string class_name(std::string_view name) {
   return result;
 }
 
-std::string with(std::string text, std::string_view placeholder, std::string_view word) {
-  for (std::size_t at = text.find(placeholder); at != std::string::npos;
-       at = text.find(placeholder, at + word.size())) {
-    text.replace(at, placeholder.size(), word);
+std::string with(std::string text, std::string_view mark, std::string_view word) {
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + word.size())) {
+    text.replace(at, mark.size(), word);
   }
   return text;
 }
