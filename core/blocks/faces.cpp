@@ -1,6 +1,6 @@
 #include "blocks/faces.hpp"
 
-#include "blocks/random.hpp"
+#include "random/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +137,7 @@ void drop_idle_vertices(Block& block, double tolerance) {
 void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest) {
   const std::size_t count = blocks.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (Random(seed, i).share() >= share || !is_convex_quadrilateral(blocks[i])) continue;
+    if (Random::stream(seed, i).share() >= share || !is_convex_quadrilateral(blocks[i])) continue;
     const Ring ring = blocks[i].loops[0];
     const std::vector<std::uint32_t> surfaces = blocks[i].edge_surface[0];
     // Of diagonals that rounding alone tells apart the one from the first vertex.

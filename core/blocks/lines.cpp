@@ -1,6 +1,6 @@
 #include "blocks/lines.hpp"
 
-#include "blocks/random.hpp"
+#include "random/random.hpp"
 
 #include <fmt/format.h>
 
@@ -81,8 +81,8 @@ void add_joints(const JointSet& set, const Box& box, std::vector<Cut>& cuts) {
   const auto first = static_cast<std::int64_t>(std::floor((breadth.from - set.offset) / set.spacing)) - 1;
   const auto last = static_cast<std::int64_t>(std::ceil((breadth.to - set.offset) / set.spacing)) + 1;
   for (std::int64_t k = first; k <= last; ++k) {
-    Random random(set.seed, static_cast<std::uint64_t>(k));
-    const double moved = set.jitter * random.either_way();
+    Random random = Random::stream(set.seed, static_cast<std::uint64_t>(k));
+    const double moved = set.jitter * random.between(-1, 1);
     const double distance = set.offset + (static_cast<double>(k) + moved) * set.spacing;
     if (set.persistence == 1) {
       cuts.push_back({{at(distance, begin), at(distance, end)}, set.surface});
@@ -132,7 +132,7 @@ void add_bricks(const Bricks& bricks, const Box& box, std::vector<Cut>& cuts) {
 void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos& geos,
                  std::vector<Cut>& cuts) {
   const Box box = box_around(domain[0]);
-  Random random(sites.seed);
+  Random random = Random::stream(sites.seed, 0);
   std::vector<Vec2> points;
   if (sites.spacing == 0) {
     // Points are tried all over the box until enough lie within.
@@ -157,7 +157,7 @@ void add_voronoi(const Sites& sites, const std::vector<Ring>& domain, const Geos
     const auto columns = static_cast<std::int64_t>(box.width() / sites.spacing) + 1;
     for (std::int64_t row = 0; row <= rows; ++row) {
       for (std::int64_t column = 0; column <= columns; ++column) {
-        const double x = random.either_way(), y = random.either_way();
+        const double x = random.between(-1, 1), y = random.between(-1, 1);
         const double shift = row % 2 == 1 ? 0.5 : 0;
         points.push_back({box.low.x + (static_cast<double>(column) - shift) * sites.spacing + move * x,
                           box.low.y + static_cast<double>(row) * row_height + move * y});

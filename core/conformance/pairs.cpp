@@ -1,5 +1,7 @@
 #include "conformance/pairs.hpp"
 
+#include "random/random.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -15,11 +17,11 @@ Vec2 turned(Vec2 p, double angle) {
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-Ring polygon(Dice& dice, std::uint32_t corners) {
+Ring polygon(Random& random, std::uint32_t corners) {
   Ring ring;
-  const double step = 2 * pi / corners, first = dice.between(0, 2 * pi);
+  const double step = 2 * pi / corners, first = random.between(0, 2 * pi);
   for (std::uint32_t i = 0; i < corners; ++i) {
-    const double angle = first + step * (i + dice.between(-0.12, 0.12));
+    const double angle = first + step * (i + random.between(-0.12, 0.12));
     ring.push_back({std::cos(angle), std::sin(angle)});
   }
   return ring;
@@ -31,15 +33,15 @@ struct Feature {
   double outward;  ///< rad
 };
 
-Feature side(const Ring& ring, Dice& dice) {
-  const std::uint32_t i = dice.below(static_cast<std::uint32_t>(ring.size()));
+Feature side(const Ring& ring, Random& random) {
+  const std::size_t i = random.below(ring.size());
   const Vec2 p = ring[i], q = ring[(i + 1) % ring.size()];
-  const double t = dice.between(0.3, 0.7);
+  const double t = random.between(0.3, 0.7);
   return {{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, std::atan2(p.x - q.x, q.y - p.y)};
 }
 
-Feature corner(const Ring& ring, Dice& dice) {
-  const std::size_t n = ring.size(), i = dice.below(static_cast<std::uint32_t>(n));
+Feature corner(const Ring& ring, Random& random) {
+  const std::size_t n = ring.size(), i = random.below(n);
   const auto unit = [](Vec2 p, Vec2 q) {
     const double size = std::hypot(q.x - p.x, q.y - p.y);
     return Vec2{(q.x - p.x) / size, (q.y - p.y) / size};
@@ -67,43 +69,30 @@ HeldPair boxes(const std::string& name, HeldBody a, HeldBody b, double depth) {
 
 }  // namespace
 
-std::uint64_t Dice::next() {  // splitmix64
-  std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
-}
-double Dice::between(double low, double high) {
-  return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-}
-std::uint32_t Dice::below(std::uint32_t count) {
-  return static_cast<std::uint32_t>(next() % count);
-}
-
 std::vector<HeldPair> random_pairs(std::uint32_t count) {
   constexpr std::uint32_t corners[] = {3, 4, 6};
   std::vector<HeldPair> pairs;
-  Dice dice(20240607);
+  Random random(20240607);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Ring a = polygon(dice, corners[i % 3]), b = polygon(dice, corners[i / 3 % 3]);
-    const double depth = std::pow(10, dice.between(-4, -2));
+    const Ring a = polygon(random, corners[i % 3]), b = polygon(random, corners[i / 3 % 3]);
+    const double depth = std::pow(10, random.between(-4, -2));
     const std::string number = std::to_string(i);
     switch (i / 9 % 4) {
       case 0:
-        pairs.push_back(stand("corner on flat " + number, a, side(a, dice), b, corner(b, dice),
-                              dice.between(-0.15, 0.15), depth));
+        pairs.push_back(stand("corner on flat " + number, a, side(a, random), b, corner(b, random),
+                              random.between(-0.15, 0.15), depth));
         break;
       case 1:
-        pairs.push_back(stand("flat on flat " + number, a, side(a, dice), b, side(b, dice),
-                              dice.between(-0.1, 0.1) * depth, depth));
+        pairs.push_back(stand("flat on flat " + number, a, side(a, random), b, side(b, random),
+                              random.between(-0.1, 0.1) * depth, depth));
         break;
       case 2:
-        pairs.push_back(stand("corner on corner " + number, a, corner(a, dice), b, corner(b, dice),
-                              dice.between(-0.15, 0.15), depth));
+        pairs.push_back(stand("corner on corner " + number, a, corner(a, random), b, corner(b, random),
+                              random.between(-0.15, 0.15), depth));
         break;
       default:
-        pairs.push_back(stand("flat on corner " + number, a, corner(a, dice), b, side(b, dice),
-                              dice.between(-0.15, 0.15), depth));
+        pairs.push_back(stand("flat on corner " + number, a, corner(a, random), b, side(b, random),
+                              random.between(-0.15, 0.15), depth));
     }
     set_moving(pairs.back(), i + 1);
   }
@@ -136,9 +125,9 @@ std::vector<HeldPair> awkward_pairs() {
 }
 
 void set_moving(HeldPair& pair, std::uint64_t seed) {
-  Dice dice(seed);
+  Random random(seed);
   for (HeldBody& body : pair.bodies) {
-    const auto any = [&] { return dice.between(-0.1, 0.1); };
+    const auto any = [&] { return random.between(-0.1, 0.1); };
     body.motion.velocity = {any(), any()};
     body.motion.rate = {any(), any(), any(), any()};
   }

@@ -15,18 +15,6 @@ struct HeldPair {
   double depth;  ///< m, about how deep
 };
 
-/// Numbers that are the same on every machine.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-  double between(double low, double high);
-  std::uint32_t below(std::uint32_t count);
-
- private:
-  std::uint64_t next();
-  std::uint64_t state_;
-};
-
 /// Triangles, quadrilaterals and hexagons at random: a corner on a flat, a flat on a flat, a corner on a
 /// corner; 1e-4 to 1e-2 m deep. No exact ties, so that they can be turned and mirrored.
 std::vector<HeldPair> random_pairs(std::uint32_t count);

@@ -1,6 +1,7 @@
 #include "study/plan.hpp"
 
 #include "files/input_error.hpp"
+#include "random/random.hpp"
 
 #include <fmt/format.h>
 
@@ -39,28 +40,10 @@ std::optional<Span> span_of(const Variation& variation) {
   return span;
 }
 
-/// SplitMix64: the same numbers with every compiler.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t next() {
-    state_ += 0x9E3779B97F4A7C15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  double share() { return static_cast<double>(next() >> 11) * 0x1p-53; }  ///< from 0, less than 1
-
- private:
-  std::uint64_t state_;
-};
-
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
   return order;
 }
 

@@ -1,5 +1,6 @@
 #include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "random/random.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -235,7 +236,7 @@ TEST_CASE("Slivers as thin as the rounding of their corners make no force and no
   // Such a sliver is not quite convex. With areas that cancel and moments that do not, its centroid was once
   // found 5e14 m away, and a force of 1e-6 N there overturned a wall.
   for (const std::string& law : laws()) {
-    Dice dice(7);
+    Random random(7);
     double force = 0, moment = 0, farthest = 0;
     std::size_t found = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -243,10 +244,10 @@ TEST_CASE("Slivers as thin as the rounding of their corners make no force and no
       bench.bodies = {box(-0.5, -0.25, 0.5, 0.25), box(0.5, -0.25, 1.5, 0.25)};
       for (HeldBody& body : bench.bodies) {
         // Strains and shifts of a few roundings: the corners of the two all but coincide.
-        const auto about = [&](double size) { return dice.between(-size, size); };
+        const auto about = [&](double size) { return random.between(-size, size); };
         body.motion.h = {about(4e-16), about(4e-15), about(4e-15), about(2e-14)};
         body.motion.u = {about(4e-16), -4.67e-5 + about(2e-14)};
-        body.motion.velocity = {0, dice.between(-0.1, 0.1)};
+        body.motion.velocity = {0, random.between(-0.1, 0.1)};
       }
       for (int step = 0; step < 2; ++step) {
         const Evaluation e = bench.step(1e-5);

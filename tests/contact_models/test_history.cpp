@@ -1,5 +1,5 @@
-#include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "random/random.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <fmt/format.h>
@@ -107,12 +107,12 @@ TEST_CASE("Overlaps that meet in a point at the back of one strip are contacts o
     INFO(law);
     LawBench bench(law);
     bench.bodies = {in_strips(box(-2, -1, 2, 0), 1, 0.01), in_strips(box(-0.5, -0.03, 0.5, 0.97), 2, 0.1)};
-    Dice dice(5);
+    Random random(5);
     std::size_t first = 0;
     for (int i = 0; i < 200; ++i) {
-      bench.bodies[1].motion.h = {dice.between(-1e-9, 1e-9), dice.between(-1e-9, 1e-9),
-                                  dice.between(-1e-9, 1e-9), dice.between(-1e-9, 1e-9)};
-      bench.bodies[1].motion.u = {dice.between(-1e-3, 1e-3), dice.between(-1e-4, 1e-4)};
+      bench.bodies[1].motion.h = {random.between(-1e-9, 1e-9), random.between(-1e-9, 1e-9),
+                                  random.between(-1e-9, 1e-9), random.between(-1e-9, 1e-9)};
+      bench.bodies[1].motion.u = {random.between(-1e-3, 1e-3), random.between(-1e-4, 1e-4)};
       const std::size_t contacts = bench.look().contacts.size();
       if (i == 0) first = contacts;
       CHECK(contacts == first);

@@ -1,5 +1,5 @@
-#include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "random/random.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -23,15 +23,16 @@ struct FaceToFace {
 
 /// Two rectangles of about a metre that meet along a side turned at random, less deep than 1e-16 to 1e-12 m
 /// and out of parallel by as little, body 1 moving towards body 0.
-FaceToFace meeting(Dice& dice) {
-  const double angle = dice.between(0, 2 * std::numbers::pi), tilt = std::pow(10, dice.between(-18, -12));
-  const auto half = [&] { return dice.between(0.3, 1.3); };
+FaceToFace meeting(Random& random) {
+  const double angle = random.between(0, 2 * std::numbers::pi), tilt = std::pow(10, random.between(-18, -12));
+  const auto half = [&] { return random.between(0.3, 1.3); };
   const double width[] = {half(), half()}, height[] = {half(), half()};
-  const double depth = std::pow(10, dice.between(-18, -12));
-  const double aside = dice.between(-0.5, 0.5) * (width[0] + width[1]), above = height[0] + height[1] - depth;
+  const double depth = std::pow(10, random.between(-18, -12));
+  const double aside = random.between(-0.5, 0.5) * (width[0] + width[1]),
+               above = height[0] + height[1] - depth;
   FaceToFace met{{}, {-std::sin(angle), std::cos(angle)}, 2 * std::min(width[0], width[1])};
   for (int i = 0; i < 2; ++i) {
-    const double turn = angle + (i == 0 ? 0 : dice.between(-1, 1) * tilt);
+    const double turn = angle + (i == 0 ? 0 : random.between(-1, 1) * tilt);
     const double c = std::cos(turn), s = std::sin(turn);
     std::vector<Vec2> outline;
     for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
@@ -59,12 +60,12 @@ TEST_CASE("However an overlap of rounding looks to either role, the dashpot is t
       has_friction(law)
           ? with(lively_interface(), {{"normal_stiffness", per_depth}, {"normal_damping", of_critical}})
           : Values{{"normal_stiffness", per_depth}, {"normal_damping", of_critical}};
-  Dice dice(17);
+  Random random(17);
   LawBench bench(law, interface);
   int touching = 0;
   double largest = 0;  // force or power, in terms of the bound
   for (int round = 0; round < 20'000; ++round) {
-    const FaceToFace met = meeting(dice);
+    const FaceToFace met = meeting(random);
     bench.bodies = met.bodies;
     const Evaluation found = bench.look(one_step);
     if (found.pairs[0].contact_count == 0) continue;
@@ -83,17 +84,17 @@ TEST_CASE("However an overlap of rounding looks to either role, the dashpot is t
 // A quadrilateral and a triangle that meet in a corner, give or take rounding: some of their overlaps, of
 // 1e-30 m², are in the cell of no side. Memory for the history of t_n comes as other pairs have left it.
 TEST_CASE("Of an overlap of rounding, too, the history is written", "[laws]") {
-  Dice dice(18);
+  Random random(18);
   LawBench bench("overlap_area");
   bench.plain = false;
   int touching = 0, unwritten = 0;
   for (int round = 0; round < 20'000; ++round) {
-    const double angle = dice.between(0, 2 * std::numbers::pi);
+    const double angle = random.between(0, 2 * std::numbers::pi);
     const auto placed = [&](std::vector<Vec2> outline) {
       for (Vec2& at : outline) {
         const Vec2 given = at;
-        at.x = std::cos(angle) * given.x - std::sin(angle) * given.y + dice.between(-4e-15, 4e-15);
-        at.y = std::sin(angle) * given.x + std::cos(angle) * given.y + dice.between(-4e-15, 4e-15);
+        at.x = std::cos(angle) * given.x - std::sin(angle) * given.y + random.between(-4e-15, 4e-15);
+        at.y = std::sin(angle) * given.x + std::cos(angle) * given.y + random.between(-4e-15, 4e-15);
       }
       return held(outline);
     };

@@ -1,11 +1,11 @@
 #include "plugins/driven_element.hpp"
+#include "random/random.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 using namespace talus;
 
@@ -58,17 +58,6 @@ double elastic_energy(const Soil& soil, const std::vector<double>& state) {
       state[0] * state[0] + state[1] * state[1] + state[3] * state[3] + 2 * state[2] * state[2];
   return ((1 + soil.poisson) * squares - soil.poisson * sum * sum) / (2 * soil.young);
 }
-
-/// Uniform numbers that are the same everywhere.
-class Dice {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
-  }
-
- private:
-  std::mt19937 random_{11};
-};
 
 struct Crushed {
   double pressure;  ///< Pa, borne along y
@@ -184,19 +173,19 @@ TEST_CASE("pulled, a Mohr–Coulomb body bears its tensile strength and no more"
 
 TEST_CASE("from any trial stress the return ends on the yield surface and takes energy",
           "[plugins][mohr_coulomb]") {
-  Dice dice;
+  Random random(11);
   int yielded = 0;
   for (int i = 0; i < 10000; ++i) {
     Soil soil;
-    soil.friction = i % 5 == 0 ? 0 : dice.between(1, 60);
-    soil.cohesion = i % 7 == 0 && soil.friction > 0 ? 0 : dice.between(1e3, 1e5);
-    soil.dilation = i % 3 == 0 ? 0 : i % 3 == 1 ? soil.friction : dice.between(0, soil.friction);
-    soil.tension = i % 2 == 0 ? apex : i % 4 == 1 ? 0 : dice.between(0, 5e4);
-    soil.poisson = i % 11 == 0 ? 0.49 : dice.between(0, 0.45);
+    soil.friction = i % 5 == 0 ? 0 : random.between(1, 60);
+    soil.cohesion = i % 7 == 0 && soil.friction > 0 ? 0 : random.between(1e3, 1e5);
+    soil.dilation = i % 3 == 0 ? 0 : i % 3 == 1 ? soil.friction : random.between(0, soil.friction);
+    soil.tension = i % 2 == 0 ? apex : i % 4 == 1 ? 0 : random.between(0, 5e4);
+    soil.poisson = i % 11 == 0 ? 0.49 : random.between(0, 0.45);
     const auto law = soil.make();
     DrivenElement element(*law);
-    const double size = 0.5 * std::pow(10, dice.between(-6, 0));
-    const auto part = [&] { return size * dice.between(-0.9, 0.9); };
+    const double size = 0.5 * std::pow(10, random.between(-6, 0));
+    const auto part = [&] { return size * random.between(-0.9, 0.9); };
     // A step along one principal direction or none makes stresses that coincide.
     const bool equal = i % 13 == 0, straight = i % 17 == 0;
     const double a = part(), b = equal ? a : part(), c = straight || equal ? 0 : part();
@@ -216,7 +205,7 @@ TEST_CASE("from any trial stress the return ends on the yield surface and takes 
 
 TEST_CASE("a Mohr–Coulomb body under random steps stays within yield and only loses energy",
           "[plugins][mohr_coulomb]") {
-  Dice dice;
+  Random random(11);
   for (const double tension : {apex, 0.0, 3e3}) {
     for (const double dilation : {0.0, 15.0, 30.0}) {
       Soil soil;
@@ -226,7 +215,7 @@ TEST_CASE("a Mohr–Coulomb body under random steps stays within yield and only 
       DrivenElement element(*law);
       double plastic = 0;
       for (int i = 0; i < 500; ++i) {
-        const auto part = [&] { return 3e-3 * dice.between(-1, 1); };
+        const auto part = [&] { return 3e-3 * random.between(-1, 1); };
         const Tensor f{1 + part(), part(), part(), 0.998 + part()};
         const Response response = element.to(product(rotation(0.1 * i), f));
         const std::array<double, 3> stress = principal(element.state());
