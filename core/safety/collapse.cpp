@@ -67,36 +67,58 @@ Pieces::Pieces(const Simulation& settled) {
   }
 }
 
-PieceMotions Pieces::motions(const Simulation& simulation) const {
-  PieceMotions motions{std::vector<double>(pieces_.size()), std::vector<double>(pieces_.size())};
-  auto vertex = vertices_.begin();
+std::vector<Vec2> Pieces::places(const Simulation& simulation) const {
+  std::vector<Vec2> places;
+  for (const std::size_t body : bodies_) {
+    over_vertices(simulation, body,
+                  [&](std::size_t, const PartPoint& point) { places.push_back(point.position); });
+  }
+  return places;
+}
+
+PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec2>& began) const {
+  const std::vector<double> none(pieces_.size());
+  PieceMotions motions{none, none, none};
+  std::size_t vertex = 0;
   for (const std::size_t body : bodies_) {
     over_vertices(simulation, body, [&](std::size_t, const PartPoint& point) {
-      const auto& [piece, from] = *vertex++;
+      const auto& [piece, from] = vertices_[vertex];
       const std::array<bool, 2>& counts = pieces_[piece].counts;
-      const auto size = [&](Vec2 p) { return std::hypot(counts[0] ? p.x : 0, counts[1] ? p.y : 0); };
-      const Vec2 way{point.position.x - from.x, point.position.y - from.y};
-      motions.moved[piece] = std::max(motions.moved[piece], size(way));
-      motions.speed[piece] = std::max(motions.speed[piece], size(point.velocity));
+      const auto grow = [&](double& largest, Vec2 p) {
+        largest = std::max(largest, std::hypot(counts[0] ? p.x : 0, counts[1] ? p.y : 0));
+      };
+      grow(motions.moved[piece], minus(point.position, from));
+      grow(motions.way[piece], minus(point.position, began[vertex++]));
+      grow(motions.speed[piece], point.velocity);
     });
   }
   return motions;
 }
 
 Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
-  const double way = end.moved[piece], share = way / pieces_[piece].width;
-  const double lately = way - middle.moved[piece];
-  const bool far = share > seen,
+  const double way = end.way[piece], lately = way - middle.way[piece], width = pieces_[piece].width;
+  const bool far = way > seen * width,
              goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
-  if (share > lost) return lately > 1e-3 * way ? Course::failed : Course::stopped;
+  if (end.moved[piece] > lost * width)
+    return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
   if (goes_on) return far ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
   const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
   return slows ? Course::goes_on : Course::rests;
 }
 
+std::vector<std::size_t> Pieces::gone(const PieceMotions& motions) const {
+  std::vector<std::size_t> bodies;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const std::size_t body = pieces_[i].body;
+    if (motions.moved[i] > lost * pieces_[i].width && (bodies.empty() || bodies.back() != body))
+      bodies.push_back(body);
+  }
+  return bodies;
+}
+
 double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
-  return std::sqrt(seen * pieces_[piece].width / end.moved[piece]);
+  return std::sqrt(seen * pieces_[piece].width / end.way[piece]);
 }
 
 double Pieces::time_to_tell(double acceleration) const {

@@ -17,9 +17,10 @@ struct FollowedPiece {
   std::array<bool, 2> counts;  ///< whether motion along x, y does: not where the scene drives the body
 };
 
-/// [piece] how far the vertex has come that came farthest, m, and the largest speed of one, m/s.
+/// [piece] how far the vertex has come that came farthest, m, in all and of that since the run began, which
+/// is when it had settled; and the largest speed of one, m/s.
 struct PieceMotions {
-  std::vector<double> moved, speed;
+  std::vector<double> moved, way, speed;
 };
 
 enum class Course { rests, goes_on, failed, stopped };  ///< the last failed, too, and has come to rest
@@ -30,11 +31,17 @@ class Pieces {
   explicit Pieces(const Simulation& settled);
 
   const std::vector<FollowedPiece>& all() const { return pieces_; }
-  PieceMotions motions(const Simulation& simulation) const;
+  /// [vertex] m, to be given to motions() as the places where the run began.
+  std::vector<Vec2> places(const Simulation& simulation) const;
+  PieceMotions motions(const Simulation& simulation, const std::vector<Vec2>& began) const;
 
   /// How a piece fares between the middle and the end of a run: failed, where it came far or goes on and has
-  /// come far enough to tell; one that slows down goes on, too, until it rests.
+  /// come far enough to tell; one that slows down goes on, too, until it rests. Whether it goes on its way in
+  /// the run tells; what it moved while it settled would hide that.
   Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const;
+
+  /// Bodies of which a piece moved so far that it has failed, wherever it stopped.
+  std::vector<std::size_t> gone(const PieceMotions& motions) const;
 
   /// How many times as long a run would have to be to tell of a piece that goes on as if it always
   /// accelerated.

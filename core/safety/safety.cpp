@@ -62,11 +62,15 @@ class Reduction {
     scene_.time.end *= longest;
     run_.threads = settings.threads;
     Simulation whole(with_reduced_strength(scene_, 1), run_);
+    const Pieces drawn(whole);
+    const std::vector<Vec2> began = drawn.places(whole);
     settled_ = whole.settle(settings_.interrupted);
     warnings_ = whole.summary().warnings;
+    warn_of_gone(drawn.gone(drawn.motions(whole, began)));
     warn_of_locking(whole);
     warn_of_brittle_bonds();
     geometry_ = whole.geometry();
+    stood_ = parts_of(whole);
     pieces_.emplace(whole);
     warn_of_short_runs();
   }
@@ -92,6 +96,18 @@ class Reduction {
   }
 
  private:
+  /// What fell before there was a geometry to fall from stands all the better where it lies.
+  void warn_of_gone(const std::vector<std::size_t>& bodies) {
+    if (bodies.empty()) return;
+    std::vector<std::string> names;
+    for (const std::size_t body : bodies) names.push_back(scene_.bodies[body].name);
+    warnings_.push_back(fmt::format(
+        "with its full strength the scene came to rest only where this had moved by a twentieth of its width "
+        "or "
+        "more: the factor is of what lies there then, that of the scene as it is drawn may be below 1: {}",
+        listed(names)));
+  }
+
   /// Bonds that do not soften are gone before friction has come to its limit: the two are never there
   /// together, as limit equilibrium has them.
   void warn_of_brittle_bonds() {
@@ -145,20 +161,34 @@ class Reduction {
                     listed(names)));
   }
 
-  std::vector<MovedPart> moved_parts(const Simulation& simulation) const {
-    std::vector<MovedPart> moved;
+  /// Where the parts of all bodies are.
+  std::vector<MovedPart> parts_of(const Simulation& simulation) const {
+    std::vector<MovedPart> parts;
     for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
       for (const BodyPart& part : simulation.parts(body)) {
-        MovedPart& one = moved.emplace_back(MovedPart{body, {}});
+        MovedPart& one = parts.emplace_back(MovedPart{body, {}});
         for (const std::vector<PartPoint>& loop : part.loops) {
           auto& points = one.loops.emplace_back();
-          for (const PartPoint& p : loop)
-            points.push_back(
-                {{p.position.x - p.displacement.x, p.position.y - p.displacement.y}, p.displacement});
+          for (const PartPoint& p : loop) points.push_back({p.position, {0, 0}});
         }
       }
     }
-    return moved;
+    return parts;
+  }
+
+  /// Where they stood with full strength, and how far they have come from there.
+  std::vector<MovedPart> moved_parts(const Simulation& simulation) const {
+    std::vector<MovedPart> parts = parts_of(simulation);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t l = 0; l < parts[i].loops.size(); ++l) {
+        for (std::size_t p = 0; p < parts[i].loops[l].size(); ++p) {
+          MovedPart::Point& point = parts[i].loops[l][p];
+          const Vec2 from = stood_[i].loops[l][p].from;
+          point = {from, minus(point.from, from)};
+        }
+      }
+    }
+    return parts;
   }
 
   /// Until it is clear whether it stands, each time twice as long as before. False if it was interrupted.
@@ -169,11 +199,12 @@ class Reduction {
       }
       return true;
     };
+    const std::vector<Vec2> began = pieces_->places(simulation);
     if (!advance(2)) return false;  // t = 0 and half of the time
-    PieceMotions middle = pieces_->motions(simulation);
+    PieceMotions middle = pieces_->motions(simulation, began);
     for (int times = 1;; times *= 2) {
       if (!advance(times)) return false;
-      PieceMotions end = pieces_->motions(simulation);
+      PieceMotions end = pieces_->motions(simulation, began);
       const double to_tell = judge(middle, end, static_cast<double>(longest) / times, result);
       result.lasted = simulation.time();
       result.kinetic = simulation.ledger().kinetic;
@@ -213,6 +244,7 @@ class Reduction {
   const SafetySettings& settings_;
   RunSettings run_;
   Geometry geometry_;
+  std::vector<MovedPart> stood_;
   std::optional<Pieces> pieces_;
   bool settled_ = false;
   std::vector<std::string> warnings_;
