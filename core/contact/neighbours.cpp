@@ -88,10 +88,15 @@ void NeighbourSearch::fill_grid() {
   std::sort(grid_.begin(), grid_.end());
 }
 
-/// Two strips of one body that do not hang together.
+/// Two strips of one body that do not hang together: of different fragments, of a cut, or of an outline that
+/// may meet itself.
 bool NeighbourSearch::may_meet_itself(const Model& model, std::uint32_t p, std::uint32_t q) {
-  if (!model.bodies[model.piece_body[p]].meets_itself || p == q) return false;
+  const Body& body = model.bodies[model.piece_body[p]];
+  if (!body.meets_itself || p == q) return false;
   const Strip &a = model.strips[model.piece_strip[p]], &b = model.strips[model.piece_strip[q]];
+  if (!body.outline_meets && a.fragment == b.fragment && !model.sides[a.side].is_cut_face &&
+      !model.sides[b.side].is_cut_face)
+    return false;
   return !hang_together(model, a, b.side) && !hang_together(model, b, a.side);
 }
 

@@ -84,6 +84,8 @@ void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index, c
   Body& body = model.bodies[index];
   CoverRanges& ranges = model.ranges(body);
   ranges.side_begin = static_cast<std::uint32_t>(model.sides.size());
+  std::size_t outline = scene_body.outer.surface_class.size();
+  for (const Loop& hole : scene_body.holes) outline += hole.surface_class.size();
   for (const auto& loop : cover.loops) {
     const auto first = static_cast<std::uint32_t>(model.sides.size());
     const auto count = static_cast<std::uint32_t>(loop.size());
@@ -91,8 +93,8 @@ void add_sides(Model& model, const SceneBody& scene_body, std::uint32_t index, c
       return MaterialPoint{index, vertex.at, model.carrier(elements[vertex.element], vertex.at)};
     };
     for (std::uint32_t i = 0; i < count; ++i) {
-      model.sides.push_back(
-          {point(loop[i]), point(loop[(i + 1) % count]), surface_of(scene_body, loop[i].side)});
+      model.sides.push_back({point(loop[i]), point(loop[(i + 1) % count]),
+                             surface_of(scene_body, loop[i].side), loop[i].side >= outline});
       model.next_side.push_back(first + (i + 1) % count);
       model.previous_side.push_back(first + (i + count - 1) % count);
       model.side_size.push_back(size_of(elements[loop[i].element]));
@@ -294,6 +296,7 @@ void add_covered_body(Model& model, const SceneBody& scene_body, std::uint32_t i
   body.width = std::min(body.width, size / static_cast<double>(elements.size()));
   body.contact_mass = boundary_mass(model, body);
   body.meets_itself = scene_body.self_contact || !scene_body.discontinuities.empty();
+  body.outline_meets = scene_body.self_contact;
 }
 
 }  // namespace talus

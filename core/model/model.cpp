@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace talus {
 namespace {
@@ -68,6 +69,30 @@ std::vector<Vec2> loaded_points(const Scene& scene, std::uint32_t body, Vec2 cen
   return points;
 }
 
+/// Outlines of fragments can meet, which only now is known to be several.
+void check_fragments(const Model& model, const Scene& scene, std::uint32_t index) {
+  const Body& body = model.bodies[index];
+  if (!body.meets_itself || body.outline_meets || scene.without_interface.empty()) return;
+  std::set<std::uint32_t> fragments, outline;
+  for (std::uint32_t piece = body.piece_begin; piece < model.piece_body.size(); ++piece) {
+    const Strip& strip = model.strips[model.piece_strip[piece]];
+    fragments.insert(strip.fragment);
+    if (!model.sides[strip.side].is_cut_face) outline.insert(model.sides[strip.side].surface);
+  }
+  if (fragments.size() < 2) return;
+  for (const auto& [a, b] : scene.without_interface) {
+    if (!outline.contains(a) || !outline.contains(b)) continue;
+    const auto name = [&](std::uint32_t surface) {
+      const SurfaceClass& one = scene.surfaces[surface];
+      return one.surface.empty() ? one.material : one.surface;
+    };
+    throw BodyRefused(
+        fmt::format("the discontinuities of body '{}' cut it apart, and no row of /interfaces covers \"{}\" "
+                    "against \"{}\", with which its fragments can meet: add a row between the two",
+                    scene.bodies[index].name, name(a), name(b)));
+  }
+}
+
 void add_body(Model& model, const Scene& scene, std::uint32_t index) {
   const SceneBody& scene_body = scene.bodies[index];
   Body& body = model.bodies.emplace_back();
@@ -102,6 +127,7 @@ void add_body(Model& model, const Scene& scene, std::uint32_t index) {
   }
   if (model.covered(index)) {
     add_strips(model, index);
+    check_fragments(model, scene, index);
   } else {
     add_pieces(model, scene_body, body, index);
   }

@@ -37,7 +37,8 @@ struct MaterialPoint {
 /// A side of a body's boundary between two corners; displacement is affine along it.
 struct BoundarySide {
   MaterialPoint start, end;
-  std::uint32_t surface;  ///< index into Scene::surfaces
+  std::uint32_t surface;     ///< index into Scene::surfaces
+  bool is_cut_face = false;  ///< of a discontinuity; else it is of the body's outline
 };
 
 /// Three patches and the gradients of their weights; of an affine block, which is its own element, no_patch.
@@ -58,6 +59,7 @@ struct Strip {
   std::uint32_t side;                              ///< index into Model::sides
   double depth;                                    ///< m
   std::uint32_t competitor_begin, competitor_end;  ///< entries of Model::competitors
+  std::uint32_t fragment;                          ///< alike for all of one that joints cut out of the body
 };
 
 /// A patch at the boundary of a body and what its displacement adds to the mean displacement gradient,
@@ -88,10 +90,11 @@ struct CoverRanges {
 /// What stays of a body while it moves. Positions X are relative to the centroid at the start.
 struct Body {
   Kinematics kinematics = Kinematics::fixed;
-  bool meets_itself = false;  ///< whether parts of its boundary may touch each other
-  std::uint32_t ranges = 0;   ///< entry of Model::cover_ranges
-  Vec2 centre;                ///< m, centroid at the start, without the scene's origin
-  double mass = 0;            ///< kg per metre of thickness
+  bool meets_itself = false;   ///< whether parts of its boundary may touch each other
+  bool outline_meets = false;  ///< whether both of them may be of the outline of one fragment
+  std::uint32_t ranges = 0;    ///< entry of Model::cover_ranges
+  Vec2 centre;                 ///< m, centroid at the start, without the scene's origin
+  double mass = 0;             ///< kg per metre of thickness
   CentralMoments moments{};
   double strain_mass_scale = 1;  ///< see StrainMass (affine)
   double width = 0;         ///< m, smallest; of many elements: the smaller of that and their typical size

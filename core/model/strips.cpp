@@ -259,7 +259,8 @@ void add_strips(Model& model, std::uint32_t index) {
     model.piece_start.push_back(static_cast<std::uint32_t>(model.surface.size()));
     model.is_strip.push_back(1);
     model.strips.push_back({side, depth, static_cast<std::uint32_t>(model.competitors.size()),
-                            static_cast<std::uint32_t>(model.competitors.size() + competitors.size())});
+                            static_cast<std::uint32_t>(model.competitors.size() + competitors.size()),
+                            static_cast<std::uint32_t>(own)});
     model.piece_strip.push_back(static_cast<std::uint32_t>(model.strips.size() - 1));
     model.competitors.insert(model.competitors.end(), competitors.begin(), competitors.end());
   }

@@ -224,7 +224,7 @@ void warn_of_idle(Reading& reading, const Row& row, const std::set<std::size_t>&
 void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<NumberedSurface>& surfaces,
              bool complete) {
   const std::size_t count = surfaces.size();
-  const std::vector<bool> meet = meetings(reading.scene);
+  const std::vector<bool> meet = meetings(reading.scene), may_meet = meetings(reading.scene, true);
   reading.scene.interface_row.assign(count * count, 0);
   std::set<std::pair<std::size_t, std::size_t>> tied;
   std::set<std::size_t> applied;
@@ -234,8 +234,9 @@ void resolve(Reading& reading, const std::vector<Row>& rows, const std::vector<N
       const std::vector<const Row*> best = best_rows(rows, surfaces[i], surfaces[j]);
       const auto row = best.empty() ? 0u : static_cast<std::uint32_t>(best[0]->number);
       reading.scene.interface_row[i * count + j] = reading.scene.interface_row[j * count + i] = row;
+      if (may_meet[i * count + j] && !best.empty()) applied.insert(best[0]->number);
+      if (may_meet[i * count + j] && best.empty()) reading.scene.without_interface.emplace_back(i, j);
       if (!meet[i * count + j]) continue;
-      if (!best.empty()) applied.insert(best[0]->number);
       if (best.empty() && complete && ++missing <= 20) {
         reading.mistakes.add("/interfaces",
                              fmt::format("no row covers {} against {}, which can meet: add a row "

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -202,6 +203,9 @@ struct Scene {
   /// Interface parameters of the contact law in declared order: row of each pair of surface classes
   /// [i * surfaces.size() + j], symmetric.
   std::vector<std::uint32_t> interface_row;
+  /// Surfaces, the first not after the second, that meet only where discontinuities cut a body apart, and
+  /// that no row covers.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> without_interface;
   std::vector<std::vector<double>> interface_values;
   std::vector<SceneBody> bodies;
   std::vector<PointLoad> loads;

@@ -106,7 +106,7 @@ std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<st
   return surfaces;
 }
 
-std::vector<bool> meetings(const Scene& scene) {
+std::vector<bool> meetings(const Scene& scene, bool apart) {
   const std::size_t count = scene.surfaces.size();
   std::vector<Holders> holders(count);
   std::vector<bool> meet(count * count);
@@ -116,7 +116,8 @@ std::vector<bool> meetings(const Scene& scene) {
     const ClassesOfBody classes = classes_of(body);
     for (const std::uint32_t surface : classes.all) holders[surface].add(number, body.fixed);
     if (body.fixed) continue;
-    for (const std::uint32_t a : body.self_contact ? classes.all : classes.cuts) {
+    const bool all = body.self_contact || (apart && !body.discontinuities.empty());
+    for (const std::uint32_t a : all ? classes.all : classes.cuts) {
       for (const std::uint32_t b : classes.all) meet[a * count + b] = meet[b * count + a] = true;
     }
   }

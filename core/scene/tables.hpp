@@ -39,7 +39,8 @@ inline constexpr Parameter coordinate = number("point", "m", required, -largest_
 inline constexpr Parameter body[] = {
     flag("fixed", false, "Whether the body stays where it is and has no unknowns."),
     flag("self_contact", false,
-         "Whether parts of the body's own boundary may meet; the faces of its discontinuities always may."),
+         "Whether parts of the body's own outline may meet; the faces of its discontinuities always may, and "
+         "so may what they cut out of it."),
     number("velocity", "m/s", 0, -unbounded, unbounded, "Velocity [vx, vy] at the start."),
     number("angular_velocity", "deg/s", 0, -unbounded, unbounded,
            "Angular velocity at the start, counter-clockwise."),

@@ -101,6 +101,26 @@ TEST_CASE("A body whose gap closes under a load stops itself", "[figures]") {
   CHECK(pressed < 1.5e6);
 }
 
+TEST_CASE("A crack elsewhere lets no jaws meet that may not", "[figures]") {
+  double ignored = 0;
+  const double gap = final_gap({{"/bodies/0/self_contact", "false"},
+                                {"/bodies/0/discontinuities", R"([{"points": [[-0.1, 0.8], [0.2, 0.8]]}])"}},
+                               ignored);
+  CHECK(gap < -0.5);
+}
+
+TEST_CASE("A body that is cut apart needs a row for its outline", "[figures]") {
+  const std::string rest = R"("time": {"end": 0.001})";
+  std::string text = cut_square(rest);
+  const std::string row = R"(["rock", "rock"])";
+  text.replace(text.find(row), row.size(), R"(["crack", "top"])");
+  CHECK_THROWS_WITH(Simulation(from_text(text), {}),
+                    Catch::Contains("cut it apart") && Catch::Contains("no row of /interfaces covers"));
+  // A crack that ends within leaves it whole.
+  CHECK_NOTHROW(
+      Simulation(from_text(text, {{"/bodies/0/discontinuities/0/points", "[[-0.1, 0.5], [0.5, 0.5]]"}}), {}));
+}
+
 TEST_CASE("A closed crack carries compression as if it were not there", "[figures]") {
   const std::string text = cut_square(R"(
     "surface_loads": [{"body": "press", "surface": "top", "traction": [0, -1e6]},
