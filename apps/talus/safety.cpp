@@ -113,12 +113,10 @@ void warn_of_run(const Scene& scene, const Safety& safety) {
 }
 
 bool has_loads_in_time(const Scene& scene) {
-  const auto varies = [](const Function& function) { return function.varies_in_time(); };
-  const auto any_varies = [&](const VectorFunction& vector) { return std::ranges::any_of(vector, varies); };
-  return any_varies(scene.base_acceleration) ||
-         std::ranges::any_of(scene.loads, [&](const PointLoad& load) { return any_varies(load.force); }) ||
-         std::ranges::any_of(scene.surface_loads, [&](const SurfaceLoad& load) {
-           return any_varies(load.traction) || varies(load.pressure);
+  return varies_in_time(scene.base_acceleration) ||
+         std::ranges::any_of(scene.loads, [](const PointLoad& load) { return varies_in_time(load.force); }) ||
+         std::ranges::any_of(scene.surface_loads, [](const SurfaceLoad& load) {
+           return varies_in_time(load.traction) || load.pressure.varies_in_time();
          });
 }
 

@@ -42,9 +42,6 @@ class ContactStage {
   /// MotionState), others only for a search.
   bool find_pairs(const Model& model, MotionState& motion, double dt, const MotionState::Speeds& speeds);
 
-  /// Bodies were put elsewhere: the next call seeks their neighbours.
-  void seek_anew() { slack_ = 0; }
-
   /// [corner] the velocity with which it is taken to go on for a while. Neighbours that move along with
   /// each other close no gap by that, however fast they are.
   std::span<const kernels::CornerDrift> drift() const { return corner_drift_; }

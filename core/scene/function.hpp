@@ -69,4 +69,8 @@ struct Function {
 
 using VectorFunction = std::array<Function, 2>;
 
+inline bool varies_in_time(const VectorFunction& functions) {
+  return functions[0].varies_in_time() || functions[1].varies_in_time();
+}
+
 }  // namespace talus

@@ -191,10 +191,9 @@ void Blocks::accelerate_and_keep(std::size_t begin, std::size_t end, const kerne
 
 void Blocks::accelerate(const StepConditions& conditions, bool observed, MotionState& motion,
                         AccelerationWork& work) {
-  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
-  const double half_damping = conditions.damping * dt / 2;
-  const kernels::BlockUpdate update{(1 - half_damping) / (1 + half_damping),
-                                    dt / (1 + half_damping),
+  const Update factors = update_of(conditions);
+  const kernels::BlockUpdate update{factors.keep,
+                                    factors.gain,
                                     conditions.gravity.x,
                                     conditions.gravity.y,
                                     share_of_after(conditions),

@@ -14,15 +14,6 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double look_share = 0.125;
 constexpr std::size_t watch_chunk = 256;  ///< bodies
 
-bool varies_in_time(const Function& function) {
-  return std::any_of(function.terms.begin(), function.terms.end(),
-                     [](const Product& term) { return term.time.has_value(); });
-}
-
-bool varies_in_time(const VectorFunction& functions) {
-  return varies_in_time(functions[0]) || varies_in_time(functions[1]);
-}
-
 double squared_speed(const Model& model, const Body& body, Vec2 velocity, const Matrix2& rate) {
   double largest = 0;
   for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c) {
@@ -63,12 +54,12 @@ void Sleep::exempt(const StageSettings& stage) {
     if (varies_in_time(load.force)) until(load.body, never);
   }
   for (const SurfaceLoad& load : stage.surface_loads) {
-    if (varies_in_time(load.traction) || varies_in_time(load.pressure)) until(load.body, never);
+    if (varies_in_time(load.traction) || load.pressure.varies_in_time()) until(load.body, never);
   }
   for (const PrescribedSurface& prescribed : stage.prescribed) {
     until(prescribed.body, prescribed.ramp);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const bool varies = prescribed.displacement[axis] && varies_in_time(*prescribed.displacement[axis]);
+      const bool varies = prescribed.displacement[axis] && prescribed.displacement[axis]->varies_in_time();
       const bool moves = prescribed.velocity[axis] && !prescribed.velocity[axis]->zero();
       if (varies || moves) until(prescribed.body, never);
     }
