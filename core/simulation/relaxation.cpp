@@ -31,7 +31,8 @@ double Relaxation::damping(const Damping& how, const Model& model, const PatchMa
     return how.kind == Damping::Kind::constant ? how.constant : 0;
   }
   double stiffness = 0, inertia = 0;
-  const bool can_tell = last_forces_.size() == motion.forces.size() && dt > 0;
+  const bool can_tell = last_forces_.size() == motion.forces.size() &&
+                        last_patch_forces_.size() == motion.patch_force.size() && dt > 0;
   for (std::uint32_t b = 0; can_tell && b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const CoverRanges& ranges = model.ranges(body);
@@ -72,7 +73,8 @@ void Relaxation::remember_velocities(const MotionState& motion) {
 }
 
 double Relaxation::take_velocities(const Model& model, const PatchMass& mass,
-                                   const StepConditions& conditions, MotionState& motion) const {
+                                   const StepConditions& conditions, const Blocks& blocks,
+                                   MotionState& motion) const {
   const double share = share_of_after(conditions);
   double taken = 0;
   std::vector<Vec2> at_step;
@@ -84,7 +86,7 @@ double Relaxation::take_velocities(const Model& model, const PatchMass& mass,
   };
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (body.kinematics == Kinematics::fixed) continue;
+    if (body.kinematics == Kinematics::fixed || blocks.is_asleep(b)) continue;
     if (body.kinematics == Kinematics::covered) {
       const CoverRanges& ranges = model.ranges(body);
       at_step.clear();

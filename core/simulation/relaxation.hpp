@@ -4,6 +4,7 @@
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
+#include "simulation/blocks.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/patch_mass.hpp"
 
@@ -27,11 +28,11 @@ class Relaxation {
 
   /// Kinetic damping: v₋, before the velocity update.
   void remember_velocities(const MotionState& motion);
-  /// After it takes v_n from all bodies and leaves them what the forces at t_n make of rest, as at the start
-  /// of a run: with v₊ = 0 a mode would go on from further off than it is, by 1/√(1 − (ωΔt/2)²). Returns
-  /// ½ v_n·M v_n, J/m, which is what goes.
+  /// After it takes v_n from all bodies that do not sleep and leaves them what the forces at t_n make of
+  /// rest, as at the start of a run: with v₊ = 0 a mode would go on from further off than it is, by 1/√(1 −
+  /// (ωΔt/2)²). Returns ½ v_n·M v_n, J/m, which is what goes.
   double take_velocities(const Model& model, const PatchMass& mass, const StepConditions& conditions,
-                         MotionState& motion) const;
+                         const Blocks& blocks, MotionState& motion) const;
 
   /// The motion so far has nothing to do with what comes.
   void forget();

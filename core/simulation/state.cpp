@@ -395,7 +395,7 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
 
 /// Takes all velocities at t_n but those that supports drive.
 void Simulation::State::stop(const StepConditions& conditions) {
-  double taken = relaxation.take_velocities(model, mass, conditions, motion);
+  double taken = relaxation.take_velocities(model, mass, conditions, blocks, motion);
   std::vector<Vec2> left;
   for (std::uint32_t i = 0; i < model.bodies.size() && !settling; ++i) {
     const Support& support = support_of(stage.supports, i);
