@@ -134,7 +134,10 @@ class CornerFinder {
     contact.slack = std::min(sought, flush * edge);
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;
-      if (other.depth(k, at) < -contact.slack) return;
+      // Behind a reflex corner a vertex is past the end of either face by its depth behind the other.
+      const bool ends_side = !other.is_strip() && other.is_cut(k) &&
+                             (other.next(k) == contact.side || other.next(contact.side) == k);
+      if (other.depth(k, at) < -(ends_side ? flush * edge : contact.slack)) return;
     }
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);

@@ -5,7 +5,7 @@
 
 namespace talus::vertex_edge {
 
-/// What the host keeps for each vertex: six doubles.
+/// What the host keeps for each vertex on an edge: seven doubles.
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
@@ -13,9 +13,10 @@ struct SpringHistory {
   double intact;   ///< 1 while cohesion and tensile strength hold
   double applied;  ///< N/m, tangential force as counted, without damping
   double pulled;   ///< J/m, what its bond holds across a gap, as counted: lost when it breaks
+  double side;     ///< number of the side that it stands on
 };
 
-inline constexpr unsigned spring_doubles = 6;
+inline constexpr unsigned spring_doubles = 7;
 
 /// Springs and strength of one vertex contact.
 struct SpringParameters {

@@ -116,13 +116,13 @@ class VertexEdge final : public ContactModel {
     old.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
-      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5]});
+      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6]});
     }
   }
 
   static void write(const SpringHistory& history, double* to) {
     to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
-    to[4] = history.applied, to[5] = history.pulled;
+    to[4] = history.applied, to[5] = history.pulled, to[6] = history.side;
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
@@ -145,28 +145,58 @@ class VertexEdge final : public ContactModel {
       const double seen = bonded > touching ? bonded + batch.dt * fastest_apart(all[e]) : touching;
       const auto bond_reach = [&, bonded, touching, seen](std::uint32_t key) {
         if (bonded == touching) return BondReach{touching, touching};  // no need to know who is bonded
-        const SpringHistory* old = find_old(work.old, key);
-        return old != nullptr && old->intact == 1 ? BondReach{bonded, std::max(bonded, seen)}
-                                                  : BondReach{touching, touching};
+        const bool intact = std::ranges::any_of(
+            work.old, [&](const SpringHistory& old) { return old.key == 1.0 + key && old.intact == 1; });
+        return intact ? BondReach{bonded, std::max(bonded, seen)} : BondReach{touching, touching};
       };
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
-    drop_repeated(work.found);
+    drop_repeated(all, work.found);
   }
 
-  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep.
-  static void drop_repeated(std::vector<CornerContact>& found) {
+  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep; in a
+  /// reflex corner on both.
+  static void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
     std::size_t kept = 0;
     for (const CornerContact& contact : found) {
-      const auto same = [&](const CornerContact& other) { return other.key == contact.key; };
+      const auto same = [&](const CornerContact& other) {
+        return other.key == contact.key && !in_reflex_corner(pieces, contact, other);
+      };
       const auto before = std::find_if(found.begin(), found.begin() + kept, same);
       if (before == found.begin() + kept) {
         found[kept++] = contact;
-      } else if (contact.depth < before->depth) {
+      } else if (is_nearer(contact, *before)) {
         *before = contact;
       }
     }
     found.resize(kept);
+  }
+
+  /// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
+  static bool is_nearer(const CornerContact& contact, const CornerContact& other) {
+    const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
+    if (std::abs(contact.depth - other.depth) > 1e-9 * contact.tributary) return contact.depth < other.depth;
+    return beside(contact) < beside(other);
+  }
+
+  /// Whether the boundary goes on from the one side to the other where it bends inwards.
+  static bool in_reflex_corner(std::span<const PiecePairGeometry> pieces, const CornerContact& p,
+                               const CornerContact& q) {
+    const Piece &one = pieces[p.entry].piece[1 - p.vertex_body],
+                &other = pieces[q.entry].piece[1 - q.vertex_body];
+    if (one.is_strip() || other.is_strip()) return false;  // under load they bend at every corner
+    const auto leads = [](const Piece& from, std::uint32_t side, const Piece& to, std::uint32_t next) {
+      const double near = 1e-9 * std::min(from.length(side), to.length(next));
+      return length(from.at(from.next(side)) - to.at(next)) <= near &&
+             cross(from.tangent(side), to.tangent(next)) < 0 &&
+             dot(from.tangent(side), to.tangent(next)) < straight;
+    };
+    return leads(one, p.side, other, q.side) || leads(other, q.side, one, p.side);
+  }
+
+  static double side_of(const CornerContact& contact, const Workspace& work) {
+    const Piece& other = work.pieces[contact.entry].piece[1 - contact.vertex_body];
+    return other.first_corner() + contact.side;
   }
 
   /// m/s, no two corners part faster.
@@ -207,11 +237,29 @@ class VertexEdge final : public ContactModel {
     return nullptr;
   }
 
-  /// The history of a contact: its own, or that of the corner it meets (the two share one spring), or a new
-  /// one.
+  /// What the vertex had on this side; or on another, if it stands there no more and nowhere else.
+  static const SpringHistory* find_own(const CornerContact& contact, double side, const Workspace& work) {
+    const auto held = [&](double on) {
+      return std::ranges::find_if(
+          work.old, [&](const SpringHistory& old) { return old.key == 1.0 + contact.key && old.side == on; });
+    };
+    if (const auto own = held(side); own != work.old.end()) return &*own;
+    for (const CornerContact& other : work.found) {
+      if (&other != &contact && other.key == contact.key) return nullptr;
+    }
+    return find_old(work.old, contact.key);
+  }
+
+  /// The history of a contact: its own, on whichever side that was, or that of the corner it meets (the two
+  /// share one spring), or a new one.
   static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
-    if (const SpringHistory* old = find_old(work.old, contact.key)) return *old;
-    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0};
+    const double side = side_of(contact, work);
+    if (const SpringHistory* old = find_own(contact, side, work)) {
+      SpringHistory own = *old;
+      own.side = side;
+      return own;
+    }
+    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0, side};
     if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
     for (const CornerContact& other : work.found) {
       if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
@@ -299,8 +347,15 @@ class VertexEdge final : public ContactModel {
     sink.at_corner(own, contact.vertex, across + shear);
     sink.at_point(other, contact.side, own.at(contact.vertex), -1.0 * (across + shear));
     const double to_b = contact.vertex_body == 1 ? 1 : -1;
-    seen = {own.at(contact.vertex).x, own.at(contact.vertex).y, to_b * across.x, to_b * across.y,
-            to_b * shear.x,           to_b * shear.y,           contact.depth,   force.slips ? 1.0 : 0.0};
+    seen = {own.at(contact.vertex).x,
+            own.at(contact.vertex).y,
+            to_b * across.x,
+            to_b * across.y,
+            to_b * shear.x,
+            to_b * shear.y,
+            contact.depth,
+            force.slips ? 1.0 : 0.0,
+            0};
     return true;
   }
 
