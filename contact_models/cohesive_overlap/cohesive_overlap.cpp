@@ -238,7 +238,7 @@ class CohesiveOverlap final : public ContactModel {
     const Point along = -(shear + viscous_shear) * now.tangent;
     load_bond(sink, faces, bond, now, across + along);
     const Point middle = 0.5 * (now.at_a + now.at_b);
-    seen = {middle.x, middle.y, across.x, across.y, along.x, along.y, 0, bond.damage > 0 ? 1.0 : 0.0};
+    seen = {middle.x, middle.y, across.x, across.y, along.x, along.y, 0, bond.damage > 0 ? 1.0 : 0.0, 0};
     return true;
   }
 };

@@ -66,10 +66,21 @@ class FengVolume final : public ContactModel {
       report.penetration = std::max(report.penetration, contact.penetration);
       if (c < pair.slot_capacity && loads.reports != nullptr) {
         const overlap::Point at = overlap::middle_of(contact, edges), force = pressure * contact.chord_normal;
-        loads.reports[pair.slot_start + c] = {at.x, at.y, force.x, force.y, 0, 0, contact.penetration, 0};
+        loads.reports[pair.slot_start + c] = {
+            at.x, at.y, force.x, force.y, 0, 0, contact.penetration, 0, moment_on_b(edges, pressure, at)};
       }
     }
     if (finder.among_strips()) overlap::close_balance(sink, balance, finder.edges());
+  }
+
+  /// N, of a pressure on all edges.
+  static double moment_on_b(std::span<const overlap::LoadedEdge> edges, double pressure,
+                            overlap::Point about) {
+    double moment = 0;
+    for (const overlap::LoadedEdge& edge : edges) {
+      if (edge.body == 1) moment -= pressure * cross(edge.middle - about, edge.outward);
+    }
+    return moment;
   }
 
   double least_penetration_;

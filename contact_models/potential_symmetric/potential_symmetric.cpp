@@ -82,8 +82,11 @@ class PotentialSymmetric final : public ContactModel {
       report.penetration = std::max(report.penetration, contact.penetration);
       if (c < pair.slot_capacity && loads.reports != nullptr) {
         const Point force = on_b.force + viscous * contact.chord_normal;
-        const Point at = on_line_of_action(overlap::middle_of(contact, edges), on_b, force, chord);
-        loads.reports[pair.slot_start + c] = {at.x, at.y, force.x, force.y, 0, 0, contact.penetration, 0};
+        const Point middle = overlap::middle_of(contact, edges),
+                    at = on_line_of_action(middle, on_b, force, chord);
+        const double moment = on_b.moment_about(at) + cross(middle - at, viscous * contact.chord_normal);
+        loads.reports[pair.slot_start + c] = {at.x, at.y,  force.x, force.y, 0, 0, contact.penetration,
+                                              0,    moment};
       }
     }
     if (work.finder.among_strips()) overlap::close_balance(sink, balance, work.finder.edges());

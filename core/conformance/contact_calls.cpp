@@ -79,13 +79,23 @@ std::optional<std::string> difference_of(const Evaluation& p, const Evaluation& 
   for (std::size_t i = 0; i < p.forces.size() && !found; ++i) {
     compare(fmt::format("force x on body {}", i), p.forces[i].force.x, q.forces[i].force.x);
     compare(fmt::format("force y on body {}", i), p.forces[i].force.y, q.forces[i].force.y);
+    const auto moment = [&](const Evaluation& of) {
+      return of.moment_on(static_cast<std::uint32_t>(i), {0, 0});
+    };
+    compare(fmt::format("moment on body {}", i), moment(p), moment(q));
   }
   for (std::size_t i = 0; i < p.pairs.size() && !found; ++i) {
     compare(fmt::format("stored energy of pair {}", i), p.pairs[i].stored, q.pairs[i].stored);
     compare(fmt::format("slip loss of pair {}", i), p.pairs[i].slip_loss, q.pairs[i].slip_loss);
+    compare(fmt::format("damping of pair {}", i), p.pairs[i].damping_power, q.pairs[i].damping_power);
   }
-  for (std::size_t i = 0; i < p.contacts.size() && !found; ++i)
-    compare(fmt::format("normal force of contact {}", i), p.contacts[i].px, q.contacts[i].px);
+  for (std::size_t i = 0; i < p.contacts.size() && !found; ++i) {
+    const ContactReport &here = p.contacts[i], &there = q.contacts[i];
+    compare(fmt::format("normal force x of contact {}", i), here.px, there.px);
+    compare(fmt::format("normal force y of contact {}", i), here.py, there.py);
+    compare(fmt::format("tangential force x of contact {}", i), here.tx, there.tx);
+    compare(fmt::format("tangential force y of contact {}", i), here.ty, there.ty);
+  }
   for (std::size_t i = 0; i < p.history.size() && !found; ++i)
     compare(fmt::format("history {}", i), p.history[i], q.history[i]);
   return found;

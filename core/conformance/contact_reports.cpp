@@ -19,11 +19,18 @@ void expect_depth(Trial& trial, double found, double depth, const char* of) {
                         least_share * depth, largest_share * depth, depth));
 }
 
-/// Σ over the contacts of the first pair, on body b.
-Vec2 reported(const Evaluation& e) {
-  Vec2 sum{0, 0};
-  for (const ContactReport& contact : e.contacts)
-    sum = {sum.x + contact.px + contact.tx, sum.y + contact.py + contact.ty};
+/// Σ over the contacts of the first pair, on body b, and its moment about the centre of body a.
+struct Reported {
+  Vec2 force;
+  double moment = 0;
+};
+Reported reported(const Evaluation& e) {
+  Reported sum;
+  for (const ContactReport& contact : e.contacts) {
+    const Vec2 force{contact.px + contact.tx, contact.py + contact.ty};
+    sum.force = {sum.force.x + force.x, sum.force.y + force.y};
+    sum.moment += contact.moment + cross({contact.x, contact.y}, force);
+  }
   return sum;
 }
 
@@ -58,9 +65,17 @@ void check_reports(const Subject& subject, Trial& trial) {
       law.master_share = share;
       law.step();
       const Evaluation e = law.step();
-      const Vec2 said = reported(e), due = e.on(1);
-      trial.at_most(size_of({said.x - due.x, said.y - due.y}), 1e-6 * e.size() + rounded,
+      const Reported said = reported(e);
+      const Vec2 due = e.on(1);
+      trial.at_most(size_of(minus(said.force, due)), 1e-6 * e.size() + rounded,
                     "sum of the reported forces less that of the loads on body b [N/m]");
+      double due_moment = 0;
+      for (const LoadedCorner& load : e.corners) {
+        if (load.body == 1) due_moment += cross(minus(load.at, law.bodies[0].centre), load.force);
+      }
+      // Bodies are some metres large.
+      trial.at_most(std::abs(said.moment - due_moment), 1e-6 * e.size() + rounded,
+                    "moment of the reported forces and moments less that of the loads on body b [N]");
       for (const ContactReport& contact : e.contacts) {
         trial.due(contact.slipping == 0 || contact.slipping == 1,
                   fmt::format("slipping {:g} in a report", contact.slipping), "0 or 1");

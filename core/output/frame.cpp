@@ -157,7 +157,7 @@ Frame sample_frame(const Simulation& simulation) {
 
 Grid contact_grid(const Frame& frame) {
   Grid grid;
-  std::vector<double> normal, tangential, penetration;
+  std::vector<double> normal, tangential, moment, penetration;
   std::vector<std::int32_t> slipping, body_a, body_b;
   for (const Contact& contact : frame.contacts) {
     const std::array corner{static_cast<std::int64_t>(grid.points.size() / 3)};
@@ -165,6 +165,7 @@ Grid contact_grid(const Frame& frame) {
     append(grid.points, {frame.origin.x + contact.point.x, frame.origin.y + contact.point.y});
     append(normal, contact.normal_force);
     append(tangential, contact.tangential_force);
+    moment.push_back(contact.moment);
     penetration.push_back(contact.penetration);
     slipping.push_back(contact.slipping ? 1 : 0);
     body_a.push_back(static_cast<std::int32_t>(contact.body_a));
@@ -172,7 +173,7 @@ Grid contact_grid(const Frame& frame) {
   }
   grid.point_data = array_list(
       GridArray{"normal_force", 3, std::move(normal)},
-      GridArray{"tangential_force", 3, std::move(tangential)},
+      GridArray{"tangential_force", 3, std::move(tangential)}, GridArray{"moment", 1, std::move(moment)},
       GridArray{"penetration", 1, std::move(penetration)}, GridArray{"slipping", 1, std::move(slipping)},
       GridArray{"body_a", 1, std::move(body_a)}, GridArray{"body_b", 1, std::move(body_b)});
   return grid;

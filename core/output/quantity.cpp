@@ -65,7 +65,7 @@ ContactSum contact_sum(std::span<const Contact> contacts, std::uint32_t body, Ve
     const Vec2 &p = contact.normal_force, &t = contact.tangential_force;
     const Vec2 force{sign * (p.x + t.x), sign * (p.y + t.y)};
     sum.force = {sum.force.x + force.x, sum.force.y + force.y};
-    sum.moment += (contact.point.x - about.x) * force.y - (contact.point.y - about.y) * force.x;
+    sum.moment += sign * contact.moment + cross(minus(contact.point, about), force);
   }
   return sum;
 }

@@ -398,7 +398,8 @@ std::vector<Contact> Simulation::contacts() const {
                         {sign * r.px, sign * r.py},
                         {sign * r.tx, sign * r.ty},
                         r.penetration,
-                        r.slipping != 0});
+                        r.slipping != 0,
+                        sign * r.moment});
     }
   }
   if (!s.numbering.outer.empty()) {

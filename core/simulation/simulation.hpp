@@ -87,6 +87,7 @@ struct Contact {
   Vec2 point, normal_force, tangential_force;  ///< m, N/m on body b
   double penetration;
   bool slipping;
+  double moment;  ///< N, of all that acts on body b, about the point
 };
 
 /// The deepest overlap of two bodies at t_n; none of depth 0.

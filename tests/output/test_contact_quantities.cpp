@@ -60,7 +60,7 @@ TEST_CASE("contact forces on a body are what changes its momentum, dashpots and 
       largest = {std::max(largest.x, now.x), std::max(largest.y, now.y)};
       velocity = v, force = now;
     }
-    // Between strips of a body of many elements a remainder goes to the other body, beside what is reported.
+    // Between strips of a body of many elements a remainder is left over, beside what is reported.
     CHECK(missed <= (cover == many ? 1e-5 : 1e-9) * dt * 9.81);
     CHECK(largest.x > mass * 3);
     CHECK(largest.y > mass * 9.81);

@@ -29,7 +29,7 @@ Frame example_frame(double time) {
          {4, 5, 6}}},
        1,
        0.5});
-  frame.contacts.push_back({0, 1, {1, 0.5}, {7, 8}, {-9, 10}, 1e-3, true});
+  frame.contacts.push_back({0, 1, {1, 0.5}, {7, 8}, {-9, 10}, 1e-3, true, -11});
   return frame;
 }
 
@@ -142,6 +142,7 @@ TEST_CASE("a frame's file decodes to the places, forces and depths of its contac
   CHECK(decode::array<double>(file, "Points") == std::vector<double>{500001, 0.5, 0});
   CHECK(decode::array<double>(file, "normal_force") == std::vector<double>{7, 8, 0});
   CHECK(decode::array<double>(file, "tangential_force") == std::vector<double>{-9, 10, 0});
+  CHECK(decode::array<double>(file, "moment") == std::vector<double>{-11});
   CHECK(decode::array<double>(file, "penetration") == std::vector<double>{1e-3});
   CHECK(decode::array<std::int32_t>(file, "slipping") == std::vector<std::int32_t>{1});
   CHECK(decode::array<unsigned char>(file, "types") == std::vector<unsigned char>{1});

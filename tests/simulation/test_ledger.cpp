@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <utility>
 
 using namespace talus;
 
@@ -42,13 +43,51 @@ TEST_CASE("the balance holds from the first step of a motion that starts under d
   }
 }
 
+TEST_CASE("the balance holds where the stiffness changes at a corner of many elements",
+          "[simulation][ledger][contact]") {
+  // Its lower side has a third of the stiffness of the others. What the pressure jumps by between the two is
+  // the wedge's, whichever body comes first, and of whichever a floor of many elements makes the master.
+  const auto dropped = [](const std::string& floor, bool floor_first) {
+    WorkingScene text;
+    text.law = "frictionless";
+    const std::string wedge = R"({"name": "wedge", "material": "rock", "surfaces": {"base": [0]},
+        "polygon": [[0, 0.0002], [1, 0.3], [0.6, 0.9]], "cover": {"model": "hexagonal", "size": 0.2},
+        "velocity": [0, -1], "fix": ["x", "rotation"]})";
+    const std::string ground =
+        R"({"name": "floor", "material": "rock", "polygon": [[-2, -1], [2, -1], [2, 0], [-2, 0]], )" + floor +
+        "}";
+    text.bodies = floor_first ? ground + ", " + wedge : wedge + ", " + ground;
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.2)";
+    text.interface = R"("normal_stiffness": 3e9, "normal_damping": 0},
+                       {"between": ["base", "rock"], "normal_stiffness": 1e9, "normal_damping": 0)";
+    text.time = R"({"end": 0.02})";
+    return run_to_end(text).summary().largest_residual_share;
+  };
+  const std::string rigid = R"("cover": {"model": "rigid"}, "fix": ["x", "y", "rotation"])",
+                    many = R"("cover": {"model": "hexagonal", "size": 0.5}, "fix": ["x", "y", "rotation"])";
+  CHECK(dropped(R"("fixed": true)", true) < 1e-3);
+  for (const std::string& floor : {rigid, many}) {
+    for (const bool first : {true, false}) {
+      INFO(floor << ", first " << first);
+      CHECK(dropped(floor, first) < 1e-3);
+    }
+  }
+}
+
 TEST_CASE("the balance of a viscous body under a sudden load closes to second order in the step",
           "[simulation][ledger]") {
-  for (const char* cover : {R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})"}) {
-    INFO(cover);
-    const auto largest_share = [&](double dt) {
+  const char *block = R"({"model": "block"})", *many = R"({"model": "hexagonal", "size": 0.5})";
+  for (const auto& [model, cover] : {std::pair{"linear_elastic", block},
+                                     {"linear_elastic", many},
+                                     {"hypoelastic", block},
+                                     {"hypoelastic", many}}) {
+    INFO(model << ", " << cover);
+    const auto largest_share = [model = model, cover = cover](double dt) {
       WorkingScene text;
-      text.material += R"(, "damping_time": 1e-3)";
+      text.material = fmt::format(
+          R"("density": 2300, "model": "{}", "young_modulus": 1e10, "poisson_ratio": 0.25, "damping_time": 1e-3)",
+          model);
       text.bodies = box("base", -2, -1, 2, 0, R"("fixed": true)") + "," +
                     box("a", 0, 0, 1, 1, R"("cover": )" + std::string(cover));
       text.gravity = "[0, -9.81]";

@@ -165,13 +165,14 @@ inline void describe_plain(BodyPair& pair, std::uint32_t piece_a, std::uint32_t 
   pair.clear_depth = static_cast<float>(below * (depth_a < depth_b ? depth_a : depth_b));
 }
 
-/// One contact, for pictures and diagnosis. In the frame of the pair.
+/// One contact, for pictures, monitors and diagnosis. In the frame of the pair.
 struct ContactReport {
-  double x, y;         ///< m, where the resultant acts
+  double x, y;         ///< m, a place amid it that its loads are told about
   double px, py;       ///< N/m, normal force on body b
   double tx, ty;       ///< N/m, tangential force on body b
   double penetration;  ///< m, the largest
   double slipping;     ///< 1 while it slips, 0 while it sticks
+  double moment;       ///< N, of all that acts on body b, about x, y: 0 where the resultant acts there
 };
 
 /// Per pair, for the energy ledger and the guards.

@@ -209,10 +209,32 @@ class AreaLaw : public talus::ContactModel {
     if (pair.slot_capacity == 0) return;
     loads.history[pair.slot_start] = force;
     if (loads.reports != nullptr) {
-      loads.reports[pair.slot_start] = {
-          seen.centre.x,          seen.centre.y,          load * seen.normal.x, load * seen.normal.y,
-          force * seen.tangent.x, force * seen.tangent.y, report.penetration,   0};
+      const Point push = load * seen.normal, rub = force * seen.tangent;
+      loads.reports[pair.slot_start] = {seen.centre.x,
+                                        seen.centre.y,
+                                        push.x,
+                                        push.y,
+                                        rub.x,
+                                        rub.y,
+                                        report.penetration,
+                                        0,
+                                        moment_on_b(batch, pair, loads, seen.centre)};
     }
+  }
+
+  /// N, about a point, of all that the corners of body b bear.
+  static double moment_on_b(const talus::ContactBatch& batch, const BodyPair& pair,
+                            const talus::ContactLoads& loads, Point about) {
+    double moment = 0;
+    for (const talus::PiecePair pieces : batch.piece_pairs.of(pair)) {
+      const Piece a(batch.boundaries, pieces.a, {0, 0}, pieces.load_start);
+      const Piece b(batch.boundaries, pieces.b, {pair.offset_x, pair.offset_y}, pieces.load_start + a.size());
+      for (std::uint32_t i = 0; i < b.size(); ++i) {
+        const talus::CornerLoad& at = loads.corner[b.load_start + i];
+        moment += cross(b.at(i) - about, {at.x, at.y});
+      }
+    }
+    return moment;
   }
 };
 

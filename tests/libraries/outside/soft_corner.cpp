@@ -100,7 +100,7 @@ class SoftCorner final : public talus::ContactModel {
 
       if (report.contact_count < pair.slot_capacity && loads.reports != nullptr) {
         loads.reports[pair.slot_start + report.contact_count] = {
-            slave.x(corner), slave.y(corner), to_b * fx, to_b * fy, 0, 0, at->depth, 0};
+            slave.x(corner), slave.y(corner), to_b * fx, to_b * fy, 0, 0, at->depth, 0, 0};
       }
       ++report.contact_count;
       report.penetration = std::fmax(report.penetration, at->depth);

@@ -32,13 +32,13 @@ class AreaFinder {
  public:
   std::uint32_t find(const ContactBatch& batch, const BodyPair& pair) {
     overlaps_.find(batch, pair);
-    std::uint32_t count = overlaps_.group();
+    overlaps_.group();
     contacts_.clear();
     edges_.clear();
-    if (count == 0) return 0;
+    if (overlaps_.overlaps().empty()) return 0;
     const Overlap& first = overlaps_.overlaps()[0];
     among_strips_ = first.piece[0].is_strip() || first.piece[1].is_strip();
-    count = number_contacts(count);
+    const std::uint32_t count = number_contacts();
     for (std::uint32_t c = 0; c < count; ++c) measure(c);
     return count;
   }
@@ -63,11 +63,11 @@ class AreaFinder {
   /// Strips of one body have division lines of their own instead of common cuts: neighbours are known by the
   /// corner that they share. One pressure must act on either side of such a line, or it would be missing
   /// there.
-  std::uint32_t number_contacts(std::uint32_t groups) {
+  std::uint32_t number_contacts() {
     const std::span<const Overlap> all = overlaps_.overlaps();
     number_.resize(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) number_[i] = all[i].group;
-    if (!among_strips_) return groups;
+    for (std::size_t i = 0; i < all.size(); ++i) number_[i] = all[i].cluster;
+    if (!among_strips_) return overlaps_.clusters();
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (number_[i] == number_[j] || !beside(all[i].piece[0], all[j].piece[0]) ||
@@ -78,9 +78,9 @@ class AreaFinder {
       }
     }
     std::uint32_t count = 0;
-    for (std::uint32_t g = 0; g < groups; ++g) {  // numbers without gaps
-      if (std::find(number_.begin(), number_.end(), g) == number_.end()) continue;
-      std::replace(number_.begin(), number_.end(), g, count++);
+    for (std::uint32_t c = 0; c < overlaps_.clusters(); ++c) {  // numbers without gaps
+      if (std::find(number_.begin(), number_.end(), c) == number_.end()) continue;
+      std::replace(number_.begin(), number_.end(), c, count++);
     }
     return count;
   }

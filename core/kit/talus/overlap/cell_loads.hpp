@@ -31,6 +31,7 @@ struct Cell {
   Point normal;  ///< outward of the master
   Point foot;    ///< on the side, below the centroid
   double load;   ///< N/m, normal, of the springs
+  double depth;  ///< m, of its deepest point
   InterfaceParameters interface;
   std::uint32_t segment_start, segment_end;
   double pressed = 0;  ///< N/m, what springs and dashpots bear along the normal of the contact
@@ -51,7 +52,7 @@ struct Segment {
   double facing_share() const { return facing * share(); }
 };
 
-/// Resultant of some loads, to see what is left over.
+/// Resultant of some loads.
 struct Balance {
   Point force{0, 0};
   double moment = 0;  ///< about the first point

@@ -11,7 +11,8 @@ struct Overlap {
   Piece piece[2];
   Polygon polygon;
   AreaCentroid region;
-  std::uint32_t group = 0;
+  std::uint32_t cluster = 0;  ///< of overlaps that meet along cuts
+  std::uint32_t group = 0;    ///< of those of a cluster that are one contact
 };
 
 /// Where a group of overlaps lies, to find it again one step later.
@@ -24,7 +25,10 @@ struct GroupSpan {
 };
 
 /// Finds the overlaps of a pair and which of them are one contact: a concave body is cut into convex pieces,
-/// and overlaps that touch along such a cut belong together.
+/// and overlaps that touch along such a cut belong together, in a cluster: the pressure goes on behind it. Of
+/// these a group is one contact. Where the cut begins in a reflex corner that the other body fills, its two
+/// faces are two, as those of two bodies would be: what presses them apart is nothing to the resultant, by
+/// which friction would go.
 class OverlapGroups {
  public:
   std::uint32_t find(const ContactBatch& batch, const BodyPair& pair) {
@@ -45,23 +49,32 @@ class OverlapGroups {
     return count_;
   }
 
-  /// Numbers the groups from 0 in the order of their first members; returns how many there are.
+  /// Numbers the clusters from 0 in the order of their first members, and the groups cluster by cluster in
+  /// the same order; returns how many groups there are.
   std::uint32_t group() {
-    for (std::uint32_t i = 0; i < count_; ++i) pool_[i].group = i;
+    for (std::uint32_t i = 0; i < count_; ++i) pool_[i].cluster = pool_[i].group = i;
     list_stretches();
     for (std::size_t i = 1; i < stretches_.size(); ++i) {
       for (std::size_t j = i; j-- > 0 && stretches_[j].cut == stretches_[i].cut;) {
-        if (joined(stretches_[i], stretches_[j])) join(stretches_[i].overlap, stretches_[j].overlap);
+        const Stretch &p = stretches_[i], &q = stretches_[j];
+        if (pool_[p.overlap].group == pool_[q.overlap].group || !meet(p, q)) continue;
+        join(p.overlap, q.overlap, &Overlap::cluster);
+        if (!in_reflex_corner(p, q)) join(p.overlap, q.overlap, &Overlap::group);
       }
     }
-    return number_groups();
+    return number();
   }
 
   std::span<const Overlap> overlaps() const { return {pool_.data(), count_}; }
 
+  std::uint32_t clusters() const { return static_cast<std::uint32_t>(first_group_.size() - 1); }
+  /// The groups of a cluster are those from first_group(cluster) on, before that of the next cluster.
+  std::uint32_t first_group(std::uint32_t cluster) const { return first_group_[cluster]; }
+
   /// Members of a group, as places in overlaps(), rising.
-  std::span<const std::uint32_t> members(std::uint32_t group) const {
-    return std::span(member_).subspan(member_start_[group], member_start_[group + 1] - member_start_[group]);
+  std::span<const std::uint32_t> members(std::uint32_t group) const { return in_group_.of(group); }
+  std::span<const std::uint32_t> cluster_members(std::uint32_t cluster) const {
+    return in_cluster_.of(cluster);
   }
 
   Point centre(std::uint32_t group) const {
@@ -148,8 +161,7 @@ class OverlapGroups {
     });
   }
 
-  bool joined(const Stretch& p, const Stretch& q) const {
-    if (pool_[p.overlap].group == pool_[q.overlap].group) return false;
+  bool meet(const Stretch& p, const Stretch& q) const {
     const SideLabel side = pool_[p.overlap].polygon[p.side].side;
     // So do overlaps of two strips along the cut of a piece that both meet.
     const Piece &facing = pool_[p.overlap].piece[1 - side.body],
@@ -167,25 +179,70 @@ class OverlapGroups {
     return low <= other_high && other_low <= high;
   }
 
-  void join(std::uint32_t p, std::uint32_t q) {
-    const std::uint32_t low = std::min(pool_[p].group, pool_[q].group),
-                        high = std::max(pool_[p].group, pool_[q].group);
+  /// Whether the overlaps reach to the boundary on both sides of an end of the cut, and that is bent inwards
+  /// there.
+  bool in_reflex_corner(const Stretch& p, const Stretch& q) const {
+    return bent_inwards(beside(q, false), beside(p, true)) || bent_inwards(beside(p, false), beside(q, true));
+  }
+
+  /// The tangent of the boundary that goes on from the end of a stretch, or leads to its start; none where
+  /// the other body or another cut bounds the overlap there.
+  Point beside(const Stretch& stretch, bool after) const {
+    const Overlap& overlap = pool_[stretch.overlap];
+    const Polygon& polygon = overlap.polygon;
+    const std::size_t before = (stretch.side == 0 ? polygon.size() : stretch.side) - 1;
+    const SideLabel own = polygon[stretch.side].side,
+                    label = polygon[after ? polygon.next(stretch.side) : before].side;
+    if (label.body != own.body || !overlap.piece[label.body].real(label.index)) return {0, 0};
+    return overlap.piece[label.body].tangent(label.index);
+  }
+
+  /// From the side that leads to a corner to the one that goes on there, counter-clockwise around the body.
+  static bool bent_inwards(Point leads, Point goes_on) {
+    constexpr double least = 1e-3;  // a bend that is less is that of a straight side
+    return cross(leads, goes_on) < (dot(leads, goes_on) > 0 ? -least : 0.0);
+  }
+
+  void join(std::uint32_t p, std::uint32_t q, std::uint32_t Overlap::*number) {
+    const std::uint32_t low = std::min(pool_[p].*number, pool_[q].*number),
+                        high = std::max(pool_[p].*number, pool_[q].*number);
     for (std::uint32_t i = 0; i < count_; ++i) {
-      if (pool_[i].group == high) pool_[i].group = low;
+      if (pool_[i].*number == high) pool_[i].*number = low;
     }
   }
 
-  /// Until here a group has the number of its first member.
-  std::uint32_t number_groups() {
-    std::uint32_t groups = 0;
+  /// Overlaps by cluster or by group, rising in each.
+  struct Members {
+    std::vector<std::uint32_t> member, start;
+
+    void list(std::span<const Overlap> overlaps, std::uint32_t Overlap::*number, std::uint32_t count) {
+      start.assign(count + 1, 0);
+      for (const Overlap& overlap : overlaps) ++start[overlap.*number];
+      for (std::uint32_t k = 0, end = 0; k < count; ++k) start[k] = end += start[k];
+      const auto all = static_cast<std::uint32_t>(overlaps.size());
+      start[count] = all;
+      member.resize(all);
+      for (std::uint32_t i = all; i-- > 0;) member[--start[overlaps[i].*number]] = i;
+    }
+    std::span<const std::uint32_t> of(std::uint32_t k) const {
+      return std::span(member).subspan(start[k], start[k + 1] - start[k]);
+    }
+  };
+
+  /// Until here clusters and groups have the number of their first member.
+  std::uint32_t number() {
+    std::uint32_t clusters = 0, groups = 0;
     for (std::uint32_t i = 0; i < count_; ++i)
-      pool_[i].group = pool_[i].group == i ? groups++ : pool_[pool_[i].group].group;
-    member_start_.assign(groups + 1, 0);
-    for (const Overlap& overlap : overlaps()) ++member_start_[overlap.group];
-    for (std::uint32_t g = 0, end = 0; g < groups; ++g) member_start_[g] = end += member_start_[g];
-    member_start_[groups] = count_;
-    member_.resize(count_);
-    for (std::uint32_t i = count_; i-- > 0;) member_[--member_start_[pool_[i].group]] = i;
+      pool_[i].cluster = pool_[i].cluster == i ? clusters++ : pool_[pool_[i].cluster].cluster;
+    in_cluster_.list(overlaps(), &Overlap::cluster, clusters);
+    first_group_.clear();
+    for (std::uint32_t c = 0; c < clusters; ++c) {
+      first_group_.push_back(groups);
+      for (const std::uint32_t i : in_cluster_.of(c))
+        pool_[i].group = pool_[i].group == i ? groups++ : pool_[pool_[i].group].group;
+    }
+    first_group_.push_back(groups);
+    in_group_.list(overlaps(), &Overlap::group, groups);
     return groups;
   }
 
@@ -193,7 +250,8 @@ class OverlapGroups {
   std::vector<Overlap> pool_;
   std::uint32_t count_ = 0;
   std::vector<Stretch> stretches_;
-  std::vector<std::uint32_t> member_, member_start_;
+  Members in_cluster_, in_group_;
+  std::vector<std::uint32_t> first_group_;  ///< [cluster], and the number of groups
 };
 
 }  // namespace talus::overlap

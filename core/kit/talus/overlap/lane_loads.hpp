@@ -372,7 +372,7 @@ class LaneLoads {
                               TouchingPair::pattern_unit * cells_[0].pattern + simd::load(g.starts)};
       simd::scatter_rows(second, second_row);
     }
-    if (loads.reports != nullptr) write_contacts(loads, g, report, wanted);
+    if (loads.reports != nullptr) write_contacts<other_sides>(loads, g, report, wanted);
   }
 
   static void write_dashpots(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
@@ -383,12 +383,16 @@ class LaneLoads {
               [&](int lane) { loads.pairs[g.pair[lane]].damping_force = static_cast<float>(force[lane]); });
   }
 
+  template <int other_sides>
   void write_contacts(const ContactLoads& loads, const LaneGroup<corners>& g, const Report& report,
                       LaneBits wanted) const {
     const Packs2 normal = report.pressed * normal_of_contact(),
                  foot = foot_of_all(&LaneCell::load, &LaneCell::on_end);
     const Pack side = simd::select(simd::mask_of(g.swapped), -1.0, 1.0);
-    alignas(64) double value[8][lanes];
+    Pack moment = 0.0;
+    for (int i = 0; i < corners_of(other_sides, corners); ++i)
+      moment = moment + simd::cross(piece_[1].corner[i].at - foot, piece_[1].corner[i].load);
+    alignas(64) double value[9][lanes];
     simd::store(foot.x, value[0]);
     simd::store(foot.y, value[1]);
     simd::store(side * normal.x, value[2]);
@@ -397,9 +401,11 @@ class LaneLoads {
     simd::store(side * report.tangential * tangent_.y, value[5]);
     simd::store(report.penetration, value[6]);
     simd::store(simd::abs(report.slip), value[7]);
+    simd::store(side * moment, value[8]);
     each_lane(wanted, [&](int lane) {
-      loads.reports[g.slot[lane]] = {value[0][lane], value[1][lane], value[2][lane], value[3][lane],
-                                     value[4][lane], value[5][lane], value[6][lane], value[7][lane]};
+      loads.reports[g.slot[lane]] = {value[0][lane], value[1][lane], value[2][lane],
+                                     value[3][lane], value[4][lane], value[5][lane],
+                                     value[6][lane], value[7][lane], value[8][lane]};
     });
   }
 

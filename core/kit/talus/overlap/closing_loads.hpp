@@ -1,0 +1,66 @@
+#pragma once
+
+#include <talus/overlap/cell_loads.hpp>
+
+namespace talus::overlap {
+
+/// A stretch of a cell along a line within a body: a cut, the end of a strip, or where sides of the master
+/// divide the overlap.
+struct InnerSegment {
+  std::uint32_t body;  ///< whose line it is
+  Segment segment;
+  Point inward;  ///< into the cell
+};
+
+/// A side that bears loads, and where.
+struct LoadedSide {
+  Piece piece;
+  std::uint32_t side = 0;
+  Point foot{0, 0};
+  double load = 0;  ///< N/m
+};
+
+/// Where the stiffness changes within an overlap, or a deep one reaches past a cut, the pressure jumps along
+/// a line within a body and Eqs. 33–34 leave a remainder. The line moves with its body, so that one bears it,
+/// as −∂Π/∂q has it: given to the other, which may be fixed, the motion would know nothing of it.
+class ClosingLoads {
+ public:
+  void clear() {
+    all_ = within_[0] = within_[1] = {};
+    bears_[0] = bears_[1] = {};
+  }
+
+  /// A load that is on a body already.
+  void add(Point at, Point load) { all_.add(at, load); }
+  /// What presses on a line within a body, from one side; from the other its neighbour does.
+  void add_within(std::uint32_t body, Point at, Point load) { within_[body].add(at, load); }
+  /// Of these the side with the largest load takes what is left over on its body.
+  void may_bear(std::uint32_t body, const LoadedSide& side) {
+    if (side.load > bears_[body].load && side.piece.length(side.side) > 0) bears_[body] = side;
+  }
+
+  /// Loads of both bodies so that nothing is left over.
+  void close(const LoadSink& sink) {
+    for (std::uint32_t body = 0; body < 2; ++body) {
+      if (bears_[body].load > 0) put(sink, bears_[body], within_[body], 1);
+    }
+    const LoadedSide& last = bears_[bears_[0].load < bears_[1].load ? 1 : 0];
+    if (last.load > 0) put(sink, last, all_, -1);  // rounding
+  }
+
+ private:
+  void put(const LoadSink& sink, const LoadedSide& at, const Balance& what, double sign) {
+    const double lever = std::clamp(at.piece.lever(at.side, at.foot), 0.0, 1.0);
+    const Point point = at.piece.point_at(at.side, lever);
+    const double moment = what.moment_about(point);
+    sink.on_side(at.piece, at.side, lever, sign * what.force);
+    sink.couple(at.piece, at.side, sign * moment);
+    all_.add(point, sign * what.force);
+    all_.moment += sign * moment;
+  }
+
+  Balance all_, within_[2];
+  LoadedSide bears_[2];
+};
+
+}  // namespace talus::overlap

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <talus/overlap/cells.hpp>
+#include <talus/overlap/closing_loads.hpp>
+#include <talus/overlap/pressure.hpp>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace talus::overlap {
+
+/// What the springs of the overlaps of a pair press with, cluster by cluster.
+template <class Law>
+class NormalLoads {
+ public:
+  std::vector<Cell> cells;        ///< of the cluster at hand
+  std::vector<Segment> segments;  ///< the same
+  std::vector<Point> on_b;        ///< [overlap] N/m on body b
+
+  /// Whether a body of the pair has many elements.
+  bool among_strips() const { return among_strips_; }
+
+  void start(std::span<const Overlap> overlaps) {
+    on_b.assign(overlaps.size(), {0, 0});
+    among_strips_ = overlaps[0].piece[0].is_strip() || overlaps[0].piece[1].is_strip();
+    closing_.clear();
+  }
+
+  /// Loads both bodies, each as master as far as its role says.
+  void press(const Law& law, const Interfaces& interfaces, const LoadSink& sink,
+             const OverlapGroups& overlaps, std::uint32_t cluster, const BodyPair& pair, PairReport& report) {
+    cells.clear();
+    segments.clear();
+    for (std::uint32_t master = 0; master < 2; ++master) {
+      const double share = master == 0 ? pair.master_share() : 1 - pair.master_share();
+      if (share > 0) press_in_role(law, interfaces, sink, overlaps, cluster, master, share, report);
+    }
+  }
+
+  /// After the last cluster. A strip ends at division lines of its own, where its neighbour takes over: only
+  /// all strips together are in balance.
+  void finish(const LoadSink& sink) {
+    if (among_strips_) closing_.close(sink);
+  }
+
+ private:
+  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
+  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
+  void press_in_role(const Law& law, const Interfaces& interfaces, const LoadSink& sink,
+                     const OverlapGroups& overlaps, std::uint32_t cluster, std::uint32_t master_body,
+                     double share, PairReport& report) {
+    const std::size_t first_cell = cells.size();
+    if (!among_strips_) closing_.clear();
+    bool uniform = !HasOwnPressure<Law>;
+    std::uint32_t members = 0;
+    for (const std::uint32_t member : overlaps.cluster_members(cluster)) {
+      const Overlap& overlap = overlaps.overlaps()[member];
+      ++members;
+      const Piece& master = overlap.piece[master_body];
+      const Piece& slave = overlap.piece[1 - master_body];
+      divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
+        const AreaCentroid region = &cell == &overlap.polygon ? overlap.region : area_centroid(cell);
+        if (!(region.area > 0)) return;
+        const auto first_segment = static_cast<std::uint32_t>(segments.size());
+        const double deepest = find_segments(master, slave, side, 1 - master_body, cell);
+        InterfaceParameters parameters = interface_of(law, interfaces, overlap, master, slave, side,
+                                                      std::span(segments).subspan(first_segment));
+        const Point normal = master.normal(side);
+        double load = 0;
+        Point foot{0, 0};
+        if constexpr (HasOwnPressure<Law>) {
+          const CellPressure in_cell = integrate(law, parameters, master, side, cell);
+          load = share * in_cell.load;
+          report.stored += share * in_cell.energy;
+          foot = in_cell.centre + master.depth(side, in_cell.centre) * normal;
+        } else {
+          load = share * parameters.normal_stiffness * region.area;
+          const double depth = master.depth(side, region.centroid);
+          report.stored += load * depth;
+          foot = region.centroid + depth * normal;
+        }
+        on_b[member] = on_b[member] + (master_body == 0 ? load : -load) * normal;
+        sink.on_side(master, side, master.lever(side, foot), -load * normal);
+        closing_.add(foot, -load * normal);
+        for (std::size_t s = first_segment; s < segments.size(); ++s) {
+          find_slave_loads(law, parameters, share, segments[s]);
+          load_slave(sink, slave, segments[s]);
+        }
+        for (InnerSegment& inner : inner_segments_) {
+          find_slave_loads(law, parameters, share, inner.segment);
+          for (int end = 0; end < 2; ++end)
+            closing_.add_within(inner.body, inner.segment.at[end], inner.segment.load[end] * inner.inward);
+        }
+        closing_.may_bear(master_body, {master, side, foot, load});
+        closing_.may_bear(1 - master_body, {slave, any_real_side(overlap, slave), foot, load});
+        // What a dashpot is measured by: the mean slope of the pressure.
+        if constexpr (HasOwnPressure<Law>) parameters.normal_stiffness = load / (share * region.area);
+        if (cells.size() > first_cell) {
+          uniform = uniform && cells[first_cell].interface.normal_stiffness == parameters.normal_stiffness;
+        }
+        cells.push_back({&overlap, master_body, side, normal, foot, load, deepest, parameters, first_segment,
+                         static_cast<std::uint32_t>(segments.size())});
+      });
+    }
+    if (!among_strips_ && (members > 1 || !uniform)) closing_.close(sink);
+  }
+
+  /// Returns the depth of the deepest point, m.
+  double find_segments(const Piece& master, const Piece& slave, std::uint32_t side, std::uint32_t slave_body,
+                       const Polygon& cell) {
+    inner_segments_.clear();
+    double deepest = 0;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const SideLabel label = cell[i].side;
+      const Point start = cell[i].at, end = cell[cell.next(i)].at;
+      const double depth = master.depth(side, start);
+      deepest = std::max(deepest, depth);
+      const bool on_slave = label.body == slave_body && slave.real(label.index);
+      if (!on_slave && label.body == 1 - slave_body && master.real(label.index)) continue;
+      Segment segment{};
+      segment.side = label.index;
+      segment.at[0] = start;
+      segment.at[1] = end;
+      segment.depth[0] = std::max(0.0, depth);
+      segment.depth[1] = std::max(0.0, master.depth(side, end));
+      segment.length = length(end - start);
+      if (on_slave) {
+        segment.facing = std::max(0.0, -dot(slave.normal(segment.side), master.normal(side)));
+        segments.push_back(segment);
+      } else if (segment.length > 0) {
+        const Point along = (1 / segment.length) * (end - start);
+        inner_segments_.push_back(
+            {label.body > 1 ? 1 - slave_body : label.body, segment, {-along.y, along.x}});
+      }
+    }
+    return deepest;
+  }
+
+  void load_slave(const LoadSink& sink, const Piece& slave, const Segment& segment) {
+    const Point inward = -1.0 * slave.normal(segment.side);
+    for (int end = 0; end < 2; ++end) {
+      const Point force = segment.load[end] * inward;
+      sink.on_side(slave, segment.side, slave.lever(segment.side, segment.at[end]), force);
+      closing_.add(segment.at[end], force);
+    }
+  }
+
+  CellDivider divider_;
+  std::vector<InnerSegment> inner_segments_;  ///< of the cell at hand
+  ClosingLoads closing_;
+  bool among_strips_ = false;
+};
+
+}  // namespace talus::overlap

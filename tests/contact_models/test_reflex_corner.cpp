@@ -1,0 +1,155 @@
+// Contacts on both faces of a reflex corner, of one body or of two.
+#include "output/quantity.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace talus;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A wedge that is driven into its notch at 2 mm/s. The notch is in one body, or between two.
+WorkingScene driven_wedge(double half_angle, bool one_body, const std::string& law) {
+  const double half = std::tan(half_angle * degree);
+  WorkingScene text;
+  text.law = law;
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  const auto fixed = [](const char* name, const std::string& polygon) {
+    return fmt::format(R"({{"name": "{}", "material": "rock", "fixed": true, "polygon": [{}]}}, )", name,
+                       polygon);
+  };
+  const std::string left = fmt::format("[{}, 1], [-3, 1], [-3, -0.5]", -half),
+                    right = fmt::format("[3, -0.5], [3, 1], [{}, 1]", half);
+  text.bodies =
+      one_body ? fixed("notch", left + ", " + right + ", [0, 0]") + fixed("far", "[9, 0], [9, 1], [8, 1]")
+               : fixed("left", left + ", [0, -0.5], [0, 0]") + fixed("right", "[0, 0], [0, -0.5], " + right);
+  text.bodies += fmt::format(R"({{"name": "wedge", "material": "rock", "polygon": [[0, 0], [{}, 1], [{}, 1]],
+                                 "drive": {{"x": 0, "y": -0.002, "rotation": 0}}}})",
+                             half, -half);
+  text.time = R"({"end": 0.5, "dt": 5e-4})";
+  return text;
+}
+
+double upward_force(const WorkingScene& text) {
+  const Simulation simulation = run_to_end(text);
+  return contact_sum(simulation.contacts(), 2, {}).force.y;
+}
+
+}  // namespace
+
+TEST_CASE("friction acts on both faces of a notch, whether one body has it or two", "[laws][friction]") {
+  for (const char* law : {"overlap_area", "cohesive_overlap"}) {
+    for (const double half_angle : {10.0, 30.0, 70.0}) {
+      INFO(law << ", " << half_angle);
+      const double a = half_angle * degree, moved = 1e-3;
+      // Faces of length 1/cos a close by moved · sin a and slip by moved · cos a, which a flat wedge does not
+      // long enough to overcome its friction.
+      const double rubs = std::min(std::tan(30 * degree) * std::sin(a), std::cos(a));
+      const double due = 2e9 * moved / std::cos(a) * (std::sin(a) * std::sin(a) + rubs * std::cos(a));
+      const double one = upward_force(driven_wedge(half_angle, true, law)),
+                   two = upward_force(driven_wedge(half_angle, false, law));
+      CHECK(one == Approx(due).epsilon(3e-3));
+      CHECK(one == Approx(two).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("a sector turns in its bowl against the friction of all of its facets", "[laws][friction]") {
+  // Facets of 6°, whose corners lie in those of the bowl; it is pushed down by 1 mm and turned about the
+  // centre of the bowl, by 0.3°/s, with its own 3.68 m below.
+  std::string bowl = "[-6, -6], [6, -6], [6, 0]", sector;
+  const double radius = 4;
+  for (int i = 60; i >= 0; i -= 6) {
+    const double angle = (i - 30) * degree;
+    bowl += fmt::format(", [{}, {}]", radius * std::sin(angle), -radius * std::cos(angle));
+    sector = fmt::format("[{}, {}]{}", radius * std::sin(angle), -radius * std::cos(angle),
+                         sector.empty() ? "" : ", " + sector);
+  }
+  WorkingScene text;
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies =
+      fmt::format(R"({{"name": "bowl", "material": "rock", "fixed": true, "polygon": [{}, [-6, 0]]}},
+      {{"name": "sector", "material": "rock", "polygon": [{}],
+        "drive": {{"x": 0.01925, "y": -0.01, "rotation": 0.3}}}})",
+                  bowl, sector);
+  text.time = R"({"end": 0.1, "dt": 5e-4})";
+  const Simulation simulation = run_to_end(text);
+  const std::vector<Contact> contacts = simulation.contacts();
+  double pressed = 0, rubbed = 0;
+  for (const Contact& contact : contacts) {
+    pressed += std::hypot(contact.normal_force.x, contact.normal_force.y);
+    rubbed += std::hypot(contact.tangential_force.x, contact.tangential_force.y);
+  }
+  CHECK(contacts.size() >= 10);
+  CHECK(rubbed == Approx(std::tan(30 * degree) * pressed).epsilon(1e-3));
+  const double moment = contact_sum(contacts, 1, {0, 0}).moment;
+  CHECK(std::abs(moment) == Approx(radius * std::tan(30 * degree) * pressed).epsilon(0.02));
+}
+
+TEST_CASE("a box stands in the corner of one body as in that of two", "[laws]") {
+  // Pulled into the corner by 3 and 9.81 m/s², without friction.
+  const std::string floor_and_wall =
+      box("floor", -1, -1, 3, 0, R"("fixed": true)") + ", " + box("wall", -1, 0, 0, 3, R"("fixed": true)");
+  const std::string corner = R"({"name": "corner", "material": "rock", "fixed": true,
+      "polygon": [[0, 0], [3, 0], [3, -1], [-1, -1], [-1, 3], [0, 3]]}, )" +
+                             box("far", 9, 0, 10, 1, R"("fixed": true)");
+  for (const char* law : {"overlap_area", "vertex_edge"}) {
+    for (const char* cover : {"rigid", "block"}) {
+      for (const std::string& around : {floor_and_wall, corner}) {
+        INFO(law << ", " << cover << ", " << around);
+        WorkingScene text;
+        text.law = law;
+        text.cover = cover;
+        text.gravity = "[-3, -9.81]";
+        text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 0,
+                            "normal_damping": 0.3, "tangential_damping": 0.3)";
+        text.bodies = around + ", " + box("box", 0, 0, 1, 1);
+        text.rest = R"("damping": 100,)";
+        text.time = R"({"end": 0.4})";
+        const Simulation simulation = run_to_end(text);
+        const Motion motion = simulation.body_motion(2);
+        const ContactSum sum =
+            contact_sum(simulation.contacts(), 2, {0.5 + motion.displacement.x, 0.5 + motion.displacement.y});
+        CHECK(sum.force.x == Approx(3 * 2300).epsilon(1e-4));
+        CHECK(sum.force.y == Approx(9.81 * 2300).epsilon(1e-4));
+        CHECK(std::abs(sum.moment) < 1);
+        CHECK(std::abs(motion.rotation) < 1e-6);
+        CHECK(residual_share(simulation.ledger()) < 1e-3);
+      }
+    }
+  }
+}
+
+TEST_CASE("reports tell the moment of a contact with several sides", "[laws][output]") {
+  // A wedge rests in its notch under a couple, which tilts the pressure on its faces.
+  const double half = std::tan(30 * degree);
+  for (const char* cover : {"rigid", "block"}) {
+    INFO(cover);
+    WorkingScene text;
+    text.cover = cover;
+    text.law = "frictionless";
+    text.gravity = "[0, -9.81]";
+    text.interface = R"("normal_stiffness": 1e9, "normal_damping": 0.3)";
+    text.bodies = fmt::format(
+        R"({{"name": "notch", "material": "rock", "fixed": true,
+             "polygon": [[-3, -0.5], [3, -0.5], [3, 1], [{0}, 1], [0, 0], [-{0}, 1], [-3, 1]]}},
+           {{"name": "wedge", "material": "rock", "polygon": [[0, 0], [{0}, 1], [-{0}, 1]]}})",
+        half);
+    text.rest = R"("loads": [{"body": "wedge", "point": [0.2, 0.9], "force": [0, 2500]},
+                             {"body": "wedge", "point": [-0.2, 0.9], "force": [0, -2500]}], "damping": 200,)";
+    text.time = R"({"end": 0.5})";
+    const Simulation simulation = run_to_end(text);
+    const Motion motion = simulation.body_motion(1);
+    const Vec2 centre{motion.displacement.x, 2 / 3.0 + motion.displacement.y};
+    CHECK(contact_sum(simulation.contacts(), 1, centre).moment == Approx(-1000).epsilon(1e-3));
+  }
+}
