@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -204,6 +203,7 @@ std::span<const Check> material_checks() {
       {"parameters", "declared defaults make a material; other values make one or are refused in words",
        check_parameters},
       {"power", "stress power is energy stored or dissipated; nothing is dissipated below zero", check_power},
+      {"losses", "slow motion dissipates nothing", check_viscous_loss},
       {"objectivity", "rotation makes no stress and turns what there is; no moment", check_objectivity},
       {"potential", "P = ∂W/∂F", check_stress_potential},
       {"tangent", "stiffest_tangent() bounds the speed of waves, and is of its order", check_tangent},

@@ -25,16 +25,16 @@ std::vector<Tensor> round_trip(double strain, int steps) {
 }
 
 struct Account {
-  double missing, turned_over, least_dissipated;
+  double missing, turned_over, least_dissipated, dissipated;
 };
 
-Account account_of(const Material& law, const std::vector<Tensor>& path) {
+Account account_of(const Material& law, const std::vector<Tensor>& path, double dt = 1e-3) {
   DrivenElement element(law);
-  Account account{0, 0, 0};
+  Account account{0, 0, 0, 0};
   Response last{};
   double work = 0;
   for (const Tensor& f : path) {
-    last = element.to(f);
+    last = element.to(f, dt);
     account.turned_over += std::abs(element.work() - work);
     work = element.work();
     account.least_dissipated = std::min(account.least_dissipated, last.dissipated);
@@ -42,6 +42,7 @@ Account account_of(const Material& law, const std::vector<Tensor>& path) {
     if (!(missing <= account.missing)) account.missing = missing;  // nan stays
     if (std::isnan(missing)) return account;
   }
+  account.dissipated = element.dissipated();
   return account;
 }
 
@@ -107,6 +108,22 @@ void check_power(const Subject& subject, Trial& trial) {
     trial.at_most(fine.missing, allowed, "largest |work − energy − dissipated| [J/m³] in 800 steps");
     trial.at_most(-coarse.least_dissipated, 1e-12 * coarse.turned_over,
                   "energy dissipated below zero [J/m³]");
+  }
+}
+
+void check_viscous_loss(const Subject& subject, Trial& trial) {
+  if ((subject.component->component->traits & trait::viscous_loss) == 0) {
+    trial.not_claimed("trait::viscous_loss is not set");
+    return;
+  }
+  const auto law = sample_material(subject, {{"damping_time", 2e-4}});
+  for (const double strain : strains) {
+    const std::vector<Tensor> path = round_trip(strain, 400);
+    const Account quick = account_of(*law, path), slow = account_of(*law, path, 1e3);
+    trial.feed(fmt::format(
+        "one round of strains of {:g} under a turn of as much, in 400 steps of 1e-3 and of 1000 s", strain));
+    trial.at_most(slow.dissipated, 1e-5 * quick.dissipated + 1e-12 * slow.turned_over,
+                  "dissipated in slow motion [J/m³]");
   }
 }
 

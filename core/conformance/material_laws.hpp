@@ -14,6 +14,7 @@ double modulus_of(const Material& law);
 
 // What stress and energy must be.
 void check_power(const Subject& subject, Trial& trial);
+void check_viscous_loss(const Subject& subject, Trial& trial);
 void check_objectivity(const Subject& subject, Trial& trial);
 void check_stress_potential(const Subject& subject, Trial& trial);
 void check_tangent(const Subject& subject, Trial& trial);

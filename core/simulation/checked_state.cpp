@@ -198,10 +198,10 @@ void Simulation::State::check_balance() {
       fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
                   "throughput {:.3g} J/m, the "
                   "limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the critical {:.3g} s ({}): take a "
-                  "smaller one, or damp the contacts{}",
+                  "smaller one{}{}",
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  limiter_of(scene, critical), of_the_law));
+                  limiter_of(scene, critical), law != nullptr ? ", or damp the contacts" : "", of_the_law));
 }
 
 void Simulation::State::warn_of_large_step() {

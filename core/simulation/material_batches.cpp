@@ -72,7 +72,8 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
     remembers = remembers || states > 0 || needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
-    const bool viscous = (choice.component->component->traits & trait::has_potential) != 0;
+    const bool viscous =
+        (choice.component->component->traits & (trait::has_potential | trait::viscous_loss)) != 0;
     Batch& batch = batches_.emplace_back(Batch{
         std::move(material), begin, end, needs_previous, viscous, sweeping, std::vector<double>(states), {}});
     for (int k = 0; k < 4 && needs_previous; ++k)

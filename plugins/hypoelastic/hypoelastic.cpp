@@ -79,7 +79,7 @@ constexpr Component components[] = {
     material<Hypoelastic>("hypoelastic",
                           "Isotropic elasticity in rate form (Eqs. 2, 7), stress carried along by Hughes and "
                           "Winget's midpoint step.",
-                          parameters)};
+                          parameters, trait::viscous_loss)};
 
 }  // namespace
 

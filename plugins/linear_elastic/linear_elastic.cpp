@@ -173,7 +173,7 @@ class LinearElastic final : public Material {
 
 constexpr Component components[] = {material<LinearElastic>(
     "linear_elastic", "Isotropic linear elasticity, corotational: exact under any rotation.", parameters,
-    trait::has_potential)};
+    trait::has_potential | trait::viscous_loss)};
 
 }  // namespace
 

@@ -64,7 +64,7 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
                              {"potential_symmetric", {"friction", "plan"}},
                              {"linear_elastic", {}},
                              {"hypoelastic", {"potential", "sweep"}},
-                             {"mohr_coulomb", {"potential", "sweep"}},
+                             {"mohr_coulomb", {"losses", "potential", "sweep"}},
                              {"block", {"boundary"}},
                              {"rigid", {"area", "unity", "affine", "boundary"}},
                              {"hexagonal", {}},
