@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <vector>
@@ -43,10 +45,19 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
+/// Whether a name stands for what some process holds open, as /proc/self/fd/1 does, which /dev/stdout leads
+/// to. What the kernel shows as such a link is no name to follow: of a pipe it is none, and a file that takes
+/// the place of the one that is named is not what is open.
+bool is_held_open(const std::filesystem::path& file) {
+  std::error_code unknown;
+  const std::string folder = std::filesystem::canonical(folder_of(file), unknown).string();
+  return folder.starts_with("/proc/") && folder.ends_with("/fd") && std::filesystem::is_symlink(file);
+}
+
 /// A link keeps pointing where it does: what it names is written.
 std::filesystem::path followed(std::filesystem::path file) {
   constexpr int most_links = 40;  // as the kernel has it
-  for (int link = 0; link < most_links && std::filesystem::is_symlink(file); ++link)
+  for (int link = 0; link < most_links && std::filesystem::is_symlink(file) && !is_held_open(file); ++link)
     file = file.parent_path() / std::filesystem::read_symlink(file);
   return file;
 }
@@ -59,10 +70,43 @@ void write_into(const std::filesystem::path& file, std::string_view contents) {
   if (!stream) fail("cannot write", file);
 }
 
+/// Of this process the same opening, so that what is appended to stays, and what others write comes behind.
+int opened_again(const std::filesystem::path& held_open) {
+  const std::string number = held_open.filename();
+  int descriptor = -1;
+  std::from_chars(number.data(), number.data() + number.size(), descriptor);
+  std::error_code unknown;
+  return std::filesystem::equivalent(folder_of(held_open), "/proc/self/fd", unknown)
+             ? ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0)
+             : ::open(held_open.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+}
+
+void write_through(const std::filesystem::path& held_open, std::string_view contents) {
+  std::fflush(nullptr);  // what was printed before comes first
+  const int descriptor = opened_again(held_open);
+  if (descriptor < 0) fail("cannot write", held_open);
+  while (!contents.empty()) {
+    const ssize_t written = ::write(descriptor, contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int reason = errno;
+      ::close(descriptor);
+      errno = reason;
+      fail("cannot write", held_open);
+    }
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+  ::close(descriptor);
+}
+
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& file, std::string_view contents, Durability durability) {
   const std::filesystem::path place = followed(file);
+  if (is_held_open(place)) {
+    write_through(place, contents);
+    return;
+  }
   std::error_code problem;  // what cannot be looked at cannot be written either, and that is told below
   const bool loops = std::filesystem::is_symlink(place);
   if (loops || std::filesystem::is_directory(place, problem)) {

@@ -10,7 +10,8 @@ namespace talus {
 enum class Durability { with_the_system, on_disk };
 
 /// Writes a file that is whole at any moment: into a temporary beside it, which then takes its name. Links
-/// are followed; pipes and devices are written into. Throws std::system_error that names the file.
+/// are followed; pipes, devices and what a process holds open (/dev/stdout, /dev/fd/3) are written into, the
+/// last from where they stand. Throws std::system_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view contents,
                       Durability durability = Durability::with_the_system);
 

@@ -19,3 +19,11 @@ TEST_CASE("a picture replaces a file only where it is named", "[apps][view]") {
   REQUIRE(call_talus(scratch.folder(), {"view", "small.json", "-o", "small.svg"}).code == 0);
   CHECK_THAT(read_whole_file(scratch / "small.svg"), Catch::StartsWith("<svg"));
 }
+
+TEST_CASE("a picture goes to what standard output is, and takes nothing from it", "[apps][view]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"view", "small.json", "-o", "/dev/stdout"});
+  CHECK(call.code == 0);
+  CHECK_THAT(call.out, Catch::StartsWith("<svg") && Catch::EndsWith("</svg>\n/dev/stdout\n"));
+}

@@ -55,8 +55,40 @@ TEST_CASE("links are followed, and what is no file is written into", "[files]") 
   CHECK(std::string(got) == "through");
   CHECK(std::filesystem::is_fifo(pipe));
 
+  int ends[2];
+  REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+  write_whole_file("/dev/fd/" + std::to_string(ends[1]), "to whom it is open");
+  char held[32] = {};
+  CHECK(::read(ends[0], held, sizeof held) == 18);
+  CHECK(std::string(held) == "to whom it is open");
+  ::close(ends[0]);
+  ::close(ends[1]);
+
   std::filesystem::create_symlink("loop", scratch / "loop");
   CHECK_THROWS_WITH(write_whole_file(scratch / "loop", ""), Contains("cannot write") && Contains("loop"));
   CHECK_THROWS_WITH(write_whole_file(scratch.folder(), ""), Contains("directory"));
   CHECK_FALSE(std::filesystem::exists(scratch.folder().string() + ".part"));
+}
+
+TEST_CASE("what is held open keeps what it has and its place", "[files]") {
+  const Scratch scratch;
+  const std::filesystem::path log = scratch.write("log", "kept, ");
+  const auto is_written = [&](int flags, const std::string& due) {
+    const int descriptor = ::open(log.c_str(), flags | O_CLOEXEC);
+    REQUIRE(descriptor >= 0);
+    for (const char* folder : {"/dev/fd/", "/proc/self/fd/"}) {
+      std::filesystem::remove(scratch / "link");
+      std::filesystem::create_symlink(std::string(folder) + std::to_string(descriptor), scratch / "link");
+      write_whole_file(scratch / "link", "new");
+    }
+    CHECK(::write(descriptor, ".", 1) == 1);
+    ::close(descriptor);
+    CHECK(read_whole_file(log) == due);
+  };
+  is_written(O_WRONLY | O_APPEND, "kept, newnew.");
+  is_written(O_WRONLY, "newnew.ewnew.");
+  const int descriptor = ::open(log.c_str(), O_RDONLY | O_CLOEXEC);
+  CHECK_THROWS_WITH(write_whole_file("/dev/fd/" + std::to_string(descriptor), "new"),
+                    Contains("cannot write '/dev/fd/"));
+  ::close(descriptor);
 }
