@@ -1,6 +1,7 @@
 #include "output/history.hpp"
 
 #include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/quantity.hpp"
 #include "text/nearest.hpp"
 
@@ -70,6 +71,7 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::span<const 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::uint64_t size)
     : file_(file), size_(size) {
   std::filesystem::resize_file(file, size);
+  hash_.add(read_whole_file(file));
   errno = 0;
   stream_.open(file, std::ios::binary | std::ios::app);
 }
@@ -84,12 +86,21 @@ void HistoryWriter::refuse_other(const std::filesystem::path& file, std::span<co
                   file.string(), clipped(head_of(columns))));
 }
 
-void HistoryWriter::refuse_shorter(const std::filesystem::path& file, std::uint64_t size) {
+void HistoryWriter::refuse_changed(const std::filesystem::path& file, std::uint64_t size,
+                                   const std::string& hash) {
   std::error_code none;
   const std::uintmax_t found = std::filesystem::file_size(file, none);
-  if (!none && found >= size) return;
-  throw InputError(
-      fmt::format("'{}' is not what the run left: it should have {} bytes at least", file.string(), size));
+  if (none || found < size) {
+    throw InputError(
+        fmt::format("'{}' is not what the run left: it should have {} bytes at least; nothing was written",
+                    file.string(), size));
+  }
+  if (hash_of_bytes(std::string_view(read_whole_file(file)).substr(0, size)) != hash) {
+    throw InputError(
+        fmt::format("'{}' is not what the run left: its first {} bytes are others, as after another program "
+                    "saved it; restore it, or run the scene anew; nothing was written",
+                    file.string(), size));
+  }
 }
 
 void HistoryWriter::add(double time, std::span<const double> values) {
@@ -101,6 +112,8 @@ void HistoryWriter::add(double time, std::span<const double> values) {
 void HistoryWriter::write(const std::string& line) {
   stream_ << line << '\n' << std::flush;
   size_ += line.size() + 1;
+  hash_.add(line);
+  hash_.add("\n");
   if (!stream_) {
     const int reason = errno != 0 ? errno : EIO;
     throw std::system_error(reason, std::generic_category(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "files/hash.hpp"
 #include "output/series.hpp"
 #include "simulation/simulation.hpp"
 
@@ -30,13 +31,15 @@ class HistoryWriter {
   /// Goes on after the first `size` bytes of a file that a writer left, and cuts off what is behind.
   HistoryWriter(const std::filesystem::path& file, std::uint64_t size);
 
-  /// Throw InputError unless a writer left the file with these columns, or with so many bytes at least.
+  /// Throw InputError unless a writer left the file with these columns, or beginning with `size` bytes of
+  /// this hash.
   static void refuse_other(const std::filesystem::path& file, std::span<const std::string> columns);
-  static void refuse_shorter(const std::filesystem::path& file, std::uint64_t size);
+  static void refuse_changed(const std::filesystem::path& file, std::uint64_t size, const std::string& hash);
 
   void add(double time, std::span<const double> values);
 
-  std::uint64_t size() const { return size_; }  ///< bytes written
+  std::uint64_t size() const { return size_; }       ///< bytes written
+  std::string hash() const { return hash_.text(); }  ///< of these
 
  private:
   void write(const std::string& line);
@@ -44,6 +47,7 @@ class HistoryWriter {
   std::filesystem::path file_;
   std::ofstream stream_;
   std::uint64_t size_ = 0;
+  RunningHash hash_;  ///< of what stands in the file, which may be too long to read for each checkpoint
 };
 
 }  // namespace talus

@@ -130,11 +130,15 @@ RunResult record_run(Simulation& simulation, const RunOrder& order) {
   RunResult result;
   const FolderLock mine(order.folder);
   if (order.from != nullptr) refuse_other_files(simulation, order.folder);
-  write_whole_file(order.folder / "resolved.json", simulation.scene().resolved + "\n");
+  const auto write_scene = [&] {
+    write_whole_file(order.folder / "resolved.json", simulation.scene().resolved + "\n");
+  };
+  if (order.from == nullptr) write_scene();
   Recorder recorder(simulation, order.folder);
   RunKeeper keeper(order, simulation, recorder, result);
   if (order.from != nullptr) {
     keeper.restore(*order.from);
+    write_scene();  // once the files beside it are found to be those of the run
   } else {
     recorder.begin();
   }

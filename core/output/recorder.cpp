@@ -41,13 +41,18 @@ void Recorder::begin() {
 
 void Recorder::exchange(Archive& archive) {
   std::uint64_t size = history_ ? history_->size() : 0, energy_size = energy_ ? energy_->size() : 0;
+  std::string hash = history_ ? history_->hash() : "", energy_hash = energy_ ? energy_->hash() : "";
   archive(size);
+  archive(hash);
   archive(energy_size);
+  archive(energy_hash);
   archive(last_frame_);
+  if (archive.reading()) {  // before anything is cut off or written
+    HistoryWriter::refuse_changed(folder_ / history_name, size, hash);
+    HistoryWriter::refuse_changed(folder_ / energy_name, energy_size, energy_hash);
+  }
   if (frames_) frames_->exchange(archive);
   if (!archive.reading()) return;
-  HistoryWriter::refuse_shorter(folder_ / history_name, size);
-  HistoryWriter::refuse_shorter(folder_ / energy_name, energy_size);
   history_.emplace(folder_ / history_name, size);
   energy_.emplace(folder_ / energy_name, energy_size);
   series_ = read_series(folder_ / history_name);

@@ -211,6 +211,31 @@ TEST_CASE("resume spoils no results of another run", "[apps][resume]") {
   CHECK_THAT(refused("half"), Contains("energy.csv' is not what the run left"));
 }
 
+TEST_CASE("resume refuses rows that were written anew, and leaves them as they are", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(
+      call_and_signal(scratch.folder(), run_words("broken"), SIGINT, scratch / "broken/frames.pvd").code ==
+      130);
+  for (const char* name : {"broken/history.csv", "broken/energy.csv"}) {
+    CAPTURE(name);
+    const std::string left = read_whole_file(scratch / name);
+    // As a table read and written by another program has it.
+    std::string anew = left;
+    anew.replace(anew.find("\n0,"), 3, "\n0.0,");
+    scratch.write(name, anew);
+    const Call call = call_talus(scratch.folder(), {"resume", "broken", "--quiet"});
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains(std::string(name) + "' is not what the run left: its first ") &&
+                             Contains("nothing was written"));
+    CHECK(read_whole_file(scratch / name) == anew);
+    scratch.write(name, left + "0.125,");  // a row that was cut short is behind the checkpoint
+  }
+  REQUIRE(call_talus(scratch.folder(), {"resume", "broken", "--quiet"}).code == 0);
+  REQUIRE(call_talus(scratch.folder(), run_words("whole")).code == 0);
+  check_same_results(scratch, "broken", "whole");
+}
+
 TEST_CASE("a scene from a pipe runs, and leaves no state that nobody can go on from", "[apps][run]") {
   const Scratch scratch;
   const std::filesystem::path pipe = scratch / "pipe";

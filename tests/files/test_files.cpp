@@ -18,6 +18,13 @@ TEST_CASE("hashes are those of xxh128sum", "[files][hash]") {
   CHECK(hash_of_file(scratch.write("empty", "")) == hash_of_bytes(""));
   CHECK(hash_of_file(scratch.write("one", "a")) == hash_of_bytes("a"));
   CHECK(hash_of_bytes("a") != hash_of_bytes("b"));
+  RunningHash running;
+  std::string all;
+  for (int i = 0; i < 1000; ++i) {
+    CHECK(running.text() == hash_of_bytes(all));
+    running.add("a part");
+    all += "a part";
+  }
 }
 
 TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "[files]") {
