@@ -4,6 +4,7 @@
 #include "scene_options.hpp"
 #include "study_options.hpp"
 #include "terminal.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,7 @@ int advise_command(const Words& words) {
   }
   fmt::print("for {:.3g} % take", 100 * error);
   for (const Override& change : plan.overrides(plan.points[*best]))
-    fmt::print(" --set {}={}", change.pointer, change.value);
+    fmt::print(" --set {}", shell_word(change.pointer + "=" + change.value));
   fmt::print("\nerror {:.3g} %", 100 * study.findings.runs[*best].error.value_or(0));
   if (study.findings.error_of_reference)
     fmt::print(" and about {:.2g} % of what it is measured against",

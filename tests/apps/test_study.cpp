@@ -102,6 +102,11 @@ TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "1e-9%", "--quiet"}).code == 6);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
+  const Call quoted =
+      call_talus(scratch.folder(), {"advise", "small.json", "--error", "50%", "--quiet", "--vary",
+                                    "/time/dt=2e-4,1e-4", "--vary", R"(/title="a b")", "--out", "q"});
+  INFO(quoted.out + quoted.err);
+  CHECK_THAT(quoted.out, Contains(R"( --set '/title="a b"')"));
 }
 
 TEST_CASE("A study does not go on with a table that was changed while it ran", "[apps][study]") {
