@@ -93,13 +93,11 @@ Log::Fields facts_of(const RunResult& result, const std::filesystem::path& folde
   return facts;
 }
 
-/// A folder that begins with a dash is no option.
 std::string words_to_resume(const RunOrder& order) {
-  const std::string folder = order.folder.string();
   const Checkpoint& run = order.checkpoints->run;
   return fmt::format("talus resume {}{}",
                      run.allow_plugins || !run.plugin_folders.empty() ? "--allow-plugins " : "",
-                     shell_word(folder.starts_with('-') ? "./" + folder : folder));
+                     shell_file(order.folder.string()));
 }
 
 void say_how_it_ended(const RunResult& result, const RunOrder& order, const Log& log) {

@@ -162,7 +162,7 @@ std::string plugin_words(const Json& runs) {
 
 std::string command_of(const Json& page) {
   const Json& record = page.at("runs").at(0).at("record");
-  const std::string scene = shell_word(record.at("scene").at("file"));
+  const std::string scene = shell_file(record.at("scene").at("file"));
   if (page["comparison"].is_null())
     return "talus run " + scene + settings_words(record, "") + plugin_words(page.at("runs"));
   const Json& comparison = page["comparison"];
@@ -171,7 +171,7 @@ std::string command_of(const Json& page) {
     varied += (varied.find('=') == std::string::npos ? '=' : ',') + run.at("value").get<std::string>();
   std::string command = "talus compare " + scene + " --vary " + shell_word(varied);
   if (comparison.contains("reference"))
-    command += " --reference " + shell_word(comparison.at("reference").at("file").get<std::string>());
+    command += " --reference " + shell_file(comparison.at("reference").at("file").get<std::string>());
   for (const Json& moment : comparison.value("moments [s]", Json::array()))
     command += fmt::format(" --at {}", moment.get<double>());
   return command + settings_words(record, comparison.at("varied")) + plugin_words(page.at("runs"));

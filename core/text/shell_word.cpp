@@ -17,4 +17,8 @@ std::string shell_word(const std::string& word) {
   return text;
 }
 
+std::string shell_file(const std::string& file) {
+  return shell_word(file.starts_with('-') ? "./" + file : file);
+}
+
 }  // namespace talus

@@ -137,6 +137,16 @@ TEST_CASE("A report is one page with all that it shows", "[report]") {
   CHECK(run["film"]["parts"] == 2);
 }
 
+TEST_CASE("The command of a report names a scene that begins with a dash as a file", "[report]") {
+  const Scratch scratch;
+  record(spinning("rigid"), scratch);
+  auto run = nlohmann::json::parse(read_whole_file(scratch / "run.json"));
+  run["scene"]["file"] = "-x y.json";
+  scratch.write("run.json", run.dump());
+  CHECK_THAT(data_of(report_page(scratch.folder()))["command"].get<std::string>(),
+             Catch::StartsWith("talus run './-x y.json'"));
+}
+
 TEST_CASE("A report without frames or results says so", "[report]") {
   const Scratch scratch;
   CHECK_THROWS_WITH(write_report(scratch.folder()), Contains("no folder of results"));
