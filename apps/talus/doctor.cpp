@@ -3,8 +3,8 @@
 #include "diagnosis/diagnosis.hpp"
 #include "exit_code.hpp"
 #include "files/input_error.hpp"
-#include "files/whole_file.hpp"
 #include "kept_run.hpp"
+#include "output/records.hpp"
 #include "output/series.hpp"
 #include "scene_options.hpp"
 
@@ -43,24 +43,18 @@ void say_when_energy_was_lost(const std::filesystem::path& folder) {
              at);
 }
 
-/// How the run ended, as its record says.
-std::string tell_end(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "run.json";
+/// How the run ended. Returns its record, which says so.
+nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
   for (const char* of_many : {"compare.json", "study.json"}) {
     if (std::filesystem::exists(folder / of_many))
       throw InputError(fmt::format("'{}' holds several runs: name the folder of one in it", folder.string()));
   }
-  try {
-    const auto record = nlohmann::json::parse(read_whole_file(file));
-    std::string end = record.at("end");
-    fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), end,
-               record.at("t [s]").get<double>(), record.at("steps").dump());
-    if (end == "stopped") fmt::print("{}\n", record.at("trouble").get<std::string>());
-    for (const auto& warning : record.at("warnings")) fmt::print("warned: {}\n", warning.get<std::string>());
-    return end;
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(fmt::format("'{}' is no record of a run", file.string()));
-  }
+  auto record = read_run_record(folder);
+  fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), record.at("end").get<std::string>(),
+             record.at("t [s]").get<double>(), record.at("steps").dump());
+  if (record.contains("trouble")) fmt::print("{}\n", record.at("trouble").get<std::string>());
+  for (const auto& warning : record.at("warnings")) fmt::print("warned: {}\n", warning.get<std::string>());
+  return record;
 }
 
 }  // namespace
@@ -82,10 +76,10 @@ int doctor_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::filesystem::path folder = text_option(*given, "FOLDER");
-  const std::string end = tell_end(folder);
+  const auto record = tell_end(folder);
   say_when_energy_was_lost(folder);
   const std::filesystem::path file = checkpoint_file(folder);
-  if (end != "stopped") return exit_code::ok;
+  if (record.at("end") != "stopped") return exit_code::ok;
   if (!std::filesystem::exists(file)) {
     fmt::print("there is no checkpoint to go through the end again: it was stopped before t = 0\n");
     return exit_code::ok;

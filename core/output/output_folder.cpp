@@ -3,7 +3,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
-#include "files/whole_file.hpp"
+#include "output/records.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -85,10 +85,8 @@ void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>&
 }
 
 bool holds_finished_run(const fs::path& folder) {
-  const fs::path file = folder / "run.json";
-  if (!fs::exists(file)) return false;
-  const auto record = nlohmann::json::parse(read_whole_file(file), nullptr, false);
-  return record.is_object() && record.value("end", nlohmann::json()) == "finished";
+  const auto record = run_record_in(folder);
+  return record && record->at("end") == "finished";
 }
 
 }  // namespace talus

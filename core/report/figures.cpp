@@ -1,7 +1,7 @@
 #include "report/figures.hpp"
 
-#include "files/input_error.hpp"
 #include "files/whole_file.hpp"
+#include "output/records.hpp"
 #include "output/series.hpp"
 #include "picture/chart.hpp"
 #include "picture/palette.hpp"
@@ -30,18 +30,12 @@ struct Results {
 };
 
 std::vector<Results> results_in(const fs::path& folder) {
-  if (fs::exists(folder / "compare.json")) {
-    std::vector<Results> runs;
-    const Json comparison = Json::parse(read_whole_file(folder / "compare.json"), nullptr, false);
-    if (!comparison.is_object())
-      throw InputError(fmt::format("'{}' is no whole JSON", (folder / "compare.json").string()));
-    for (const Json& run : comparison["runs"])
-      runs.push_back({run["value"].get<std::string>(), folder / run["folder"].get<std::string>()});
-    return runs;
-  }
-  if (fs::exists(folder / "run.json")) return {{"", folder}};
-  throw InputError(fmt::format("'{}' holds neither run.json nor compare.json: it is no folder of results",
-                               folder.string()));
+  if (!holds_comparison(folder)) return {{"", folder}};
+  std::vector<Results> runs;
+  const Json comparison = read_comparison_record(folder);
+  for (const Json& run : comparison.at("runs"))
+    runs.push_back({run.at("value"), folder / run.at("folder").get<std::string>()});
+  return runs;
 }
 
 /// "speed" and "m/s" of "monitor.speed [m/s]", and the monitor.

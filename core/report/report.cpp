@@ -2,6 +2,7 @@
 
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
+#include "output/records.hpp"
 #include "output/vtu.hpp"
 #include "plugin/registry.hpp"
 #include "report/assets.hpp"
@@ -125,7 +126,7 @@ Json difference_json(const std::optional<Series>& series, const std::optional<Se
 Json run_json(const fs::path& folder, const std::string& name, const std::optional<Series>& history) {
   const Json resolved = json_in(folder / "resolved.json");
   return {{"name", name},
-          {"record", json_in(folder / "run.json")},
+          {"record", read_run_record(folder)},
           {"bodies", bodies_json(resolved)},
           {"monitors", monitors_json(resolved)},
           {"names_libraries", resolved.contains("plugins") && !resolved["plugins"].empty()},
@@ -179,7 +180,7 @@ std::string command_of(const Json& page) {
 
 /// The runs of a comparison: each with its deviation from the first, and from a reference.
 void add_compared_runs(const fs::path& folder, Json& page) {
-  const Json& comparison = page["comparison"] = json_in(folder / "compare.json");
+  const Json& comparison = page["comparison"] = read_comparison_record(folder);
   std::optional<Series> reference, baseline;
   if (comparison.contains("reference")) {
     const Json& file = comparison.at("reference");
@@ -201,15 +202,11 @@ void add_compared_runs(const fs::path& folder, Json& page) {
 
 Json page_json(const fs::path& folder) {
   Json page{{"comparison", nullptr}, {"reference", nullptr}, {"runs", Json::array()}};
-  if (fs::exists(folder / "compare.json")) {
+  if (holds_comparison(folder)) {
     add_compared_runs(folder, page);
-  } else if (fs::exists(folder / "run.json")) {
-    const Json record = json_in(folder / "run.json");
-    page["runs"].push_back(
-        run_json(folder, record.at("scene").value("title", ""), series_in(folder / "history.csv")));
   } else {
-    throw InputError(fmt::format("'{}' holds neither run.json nor compare.json: it is no folder of results",
-                                 folder.string()));
+    page["runs"].push_back(
+        run_json(folder, read_run_record(folder).at("scene").at("title"), series_in(folder / "history.csv")));
   }
   page["command"] = command_of(page);
   return page;

@@ -2,10 +2,10 @@
 
 #include "files/hash.hpp"
 #include "files/input_error.hpp"
-#include "files/whole_file.hpp"
 #include "output/machine.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
+#include "output/records.hpp"
 #include "output/run_record.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ std::vector<StudyLibrary> libraries_of(const Scene& scene) {
 /// Whether a run took the libraries that its scene would take now.
 /// For another instruction set, which changes no bit, others are opened.
 bool same_libraries(const Json& record, const std::vector<StudyLibrary>& libraries) {
-  const Json then = record.value("plugins", Json::array());
+  const Json& then = record.at("plugins");
   return std::equal(then.begin(), then.end(), libraries.begin(), libraries.end(),
                     [](const Json& library, const StudyLibrary& now) {
                       return library.value("xxh3_128", Json()) == now.hash &&
@@ -73,9 +73,14 @@ bool same_libraries(const Json& record, const std::vector<StudyLibrary>& librari
 
 /// Instructions and processor change no bit of a run, but its cost.
 bool costs_alike(const Json& record, SimdLevel simd) {
-  const Json settings = record.value("settings", Json::object()), machine = record.value("machine", Json());
-  return settings.value("simd", Json()) == name_of(simd) && machine.is_object() &&
+  const Json machine = record.value("machine", Json());
+  return record.at("settings").at("simd") == name_of(simd) && machine.is_object() &&
          machine.value("processor", Json()) == processor_name();
+}
+
+/// What is no number is null in JSON.
+double number_or(const Json& value, double otherwise) {
+  return value.is_number() ? value.get<double>() : otherwise;
 }
 
 /// Nothing where it is not all there: the run is made again.
@@ -91,18 +96,11 @@ Series history_of(const std::filesystem::path& folder, double end) {
   return {};
 }
 
-/// Whether a folder holds a run of something else than is asked for, or of another cost.
-bool of_another_study(const std::filesystem::path& folder, const std::vector<Override>& overrides,
+/// Whether a run is of something else than is asked for, or of another cost.
+bool of_another_study(const Json& record, const std::vector<Override>& overrides,
                       const std::string& scene_hash, SimdLevel simd) {
-  if (!std::filesystem::exists(folder / "run.json")) return false;
-  const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
-  if (!record.is_object()) return false;
-  const Json scene = record.value("scene", Json::object()),
-             settings = record.value("settings", Json::object());
-  if (!scene.is_object() || !scene.contains("xxh3_128") || !settings.is_object() || !settings.contains("set"))
-    return false;
-  return scene["xxh3_128"] != scene_hash || settings["set"] != set_of(overrides) ||
-         !costs_alike(record, simd);
+  return record.at("scene").at("xxh3_128") != scene_hash ||
+         record.at("settings").at("set") != set_of(overrides) || !costs_alike(record, simd);
 }
 
 /// What the folder of a run tells, if it is the run that is asked for, with these libraries.
@@ -110,29 +108,25 @@ StudyRun run_in(const std::filesystem::path& folder, const std::vector<Override>
                 const std::string& scene_hash, SimdLevel simd, const std::vector<StudyLibrary>& libraries) {
   StudyRun run;
   run.folder = folder;
-  if (!std::filesystem::exists(folder / "run.json")) return run;
-  const Json record = Json::parse(read_whole_file(folder / "run.json"), nullptr, false);
-  if (!record.is_object() || record.value("talus", Json()) != TALUS_VERSION) return run;
-  const Json scene = record.value("scene", Json::object()),
-             settings = record.value("settings", Json::object());
-  if (!scene.is_object() || !settings.is_object() || scene.value("xxh3_128", Json()) != scene_hash ||
-      settings.value("set", Json()) != set_of(overrides) || record.value("end", Json()) == "interrupted" ||
-      !files_unchanged(scene) || !same_libraries(record, libraries) || !costs_alike(record, simd))
+  const std::optional<Json> found = run_record_in(folder);
+  if (!found || of_another_study(*found, overrides, scene_hash, simd)) return run;
+  const Json& record = *found;
+  if (record.value("talus", Json()) != TALUS_VERSION || record.at("end") == "interrupted" ||
+      !files_unchanged(record.at("scene")) || !same_libraries(record, libraries))
     return run;
-  run.end = record["end"];
+  run.end = record.at("end");
   run.trouble = record.value("trouble", "");
-  run.dt = record["dt [s]"];
-  const Json& cost = record["cost"];
-  run.cpu = cost["settling"]["cpu [s]"].get<double>() + cost["stepping"]["cpu [s]"].get<double>();
+  run.dt = number_or(record.at("dt [s]"), 0);
+  const Json& cost = record.at("cost");
+  run.cpu = cost.at("settling").at("cpu [s]").get<double>() + cost.at("stepping").at("cpu [s]").get<double>();
   run.cpu_of_each = {run.cpu};
-  run.work = (record["settle_steps"].get<double>() + record["steps"].get<double>()) *
-             std::max(record["elements"].get<double>(), record["blocks"].get<double>());
-  run.residual =
-      record["largest_residual_share"].is_number() ? record["largest_residual_share"].get<double>() : 1.0;
-  run.penetration = record["largest_penetration [m]"];
-  run.warnings = record.value("warnings", run.warnings);
+  run.work = (record.at("settle_steps").get<double>() + record.at("steps").get<double>()) *
+             std::max(record.at("elements").get<double>(), record.at("blocks").get<double>());
+  run.residual = number_or(record.at("largest_residual_share"), 1);
+  run.penetration = number_or(record.at("largest_penetration [m]"), 0);
+  run.warnings = record.at("warnings").get<std::vector<std::string>>();
   // Of a run that was stopped the last rows may be from before the end.
-  run.history = history_of(folder, finished(run) ? record["t [s]"].get<double>() : 0);
+  run.history = history_of(folder, finished(run) ? record.at("t [s]").get<double>() : 0);
   run.done = !finished(run) || !run.history.time.empty();
   return run;
 }
@@ -178,7 +172,8 @@ class Runs {
   void refuse_other_runs() const {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const std::filesystem::path folder = order_.folder / folder_name(i, 0);
-      if (of_another_study(folder, overrides_of(i), order_.scene_hash, order_.simd))
+      const std::optional<Json> record = run_record_in(folder);
+      if (record && of_another_study(*record, overrides_of(i), order_.scene_hash, order_.simd))
         throw InputError(fmt::format(
             "'{}' holds a run with other values, of another scene, or with other instructions or on another "
             "processor, whose cost tells nothing here: give --overwrite to replace what it was made for, or "

@@ -193,3 +193,28 @@ TEST_CASE("A study replaces neither its scene nor its reference", "[apps][study]
   CHECK_THAT(curve.err, Contains("is read to make the results that would replace it"));
   CHECK(read_whole_file(scratch / "mine/study.csv") == reference);
 }
+
+TEST_CASE("A run of a study whose record is damaged is made again", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const std::vector<std::string> words{"study", "small.json", "--quiet",           "--out",
+                                       "s",     "--vary",     "/time/dt=2e-4,1e-4"};
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  const auto whole = json_of(scratch / "s/run_0001/run.json");
+  const auto is_made_again = [&](const nlohmann::json& damaged) {
+    scratch.write("s/run_0001/run.json", damaged.dump());
+    const Call call = call_talus(scratch.folder(), words);
+    INFO(damaged.dump() + call.err);
+    CHECK(call.code == 0);
+    CHECK(json_of(scratch / "s/run_0001/run.json")["state_hash"] == whole["state_hash"]);
+    CHECK(json_of(scratch / "s/run_0001/run.json").contains("cost"));
+  };
+  for (const char* key : {"cost", "end", "dt [s]"}) {
+    auto lacking = whole;
+    lacking.erase(key);
+    is_made_again(lacking);
+  }
+  auto wrong = whole;
+  wrong["plugins"] = {1, 2};
+  is_made_again(wrong);
+}

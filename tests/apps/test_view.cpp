@@ -27,3 +27,14 @@ TEST_CASE("a picture goes to what standard output is, and takes nothing from it"
   CHECK(call.code == 0);
   CHECK_THAT(call.out, Catch::StartsWith("<svg") && Catch::EndsWith("</svg>\n/dev/stdout\n"));
 }
+
+TEST_CASE("no figures are drawn of a comparison whose record is damaged", "[apps][view][report]") {
+  const Scratch scratch;
+  scratch.write("compare.json", R"({"varied": "/title"})");
+  for (const char* command : {"view", "report"}) {
+    const Call call = call_talus(scratch.folder(), {command, "."});
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("compare.json' is no record of a comparison: its /runs is missing"));
+  }
+  CHECK_FALSE(std::filesystem::exists(scratch / "figures"));
+}
