@@ -57,6 +57,16 @@ nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
   return record;
 }
 
+/// There is a good state from t = 0 on, where it is kept.
+void say_why_no_state(const nlohmann::ordered_json& record) {
+  fmt::print(
+      "there is no checkpoint to go through the end again: {}\n",
+      record.contains("settling_t [s]")
+          ? "it was stopped before t = 0"
+          : "`compare`, `study` and scenes from a pipe keep none, `talus run` does with the scene in a "
+            "file and the same --set");
+}
+
 }  // namespace
 
 Usage usage_of_doctor() {
@@ -81,7 +91,7 @@ int doctor_command(const Words& words) {
   const std::filesystem::path file = checkpoint_file(folder);
   if (record.at("end") != "stopped") return exit_code::ok;
   if (!std::filesystem::exists(file)) {
-    fmt::print("there is no checkpoint to go through the end again: it was stopped before t = 0\n");
+    say_why_no_state(record);
     return exit_code::ok;
   }
   const Checkpoint checkpoint = read_checkpoint(file);

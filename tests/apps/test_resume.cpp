@@ -303,6 +303,23 @@ TEST_CASE("doctor says which step was the first bad one and what to change", "[a
   }
 }
 
+TEST_CASE("doctor says why there is no state to go on from", "[apps][doctor]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(),
+                     {"compare", "small.json", "--vary", "/title=a,b", "--quiet", "--out", "c", "--set",
+                      "/time/dt=0.01", "--set", "/output/history=0.01", "--set", "/time/end=20"})
+              .code == 4);
+  const Call compared = call_talus(scratch.folder(), {"doctor", "c/a"});
+  CHECK(compared.code == 0);
+  CHECK_THAT(compared.out,
+             Contains("`compare`, `study` and scenes from a pipe keep none") && !Contains("before t = 0"));
+  auto record = json_of(scratch / "c/a/run.json");
+  record["settling_t [s]"] = 0.1;
+  scratch.write("c/a/run.json", record.dump());
+  CHECK_THAT(call_talus(scratch.folder(), {"doctor", "c/a"}).out, Contains("it was stopped before t = 0"));
+}
+
 TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());
