@@ -1,5 +1,6 @@
 #include "compare/variation.hpp"
 
+#include "files/hash.hpp"
 #include "files/input_error.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,9 @@
 namespace talus {
 
 namespace {
+
+/// Letters of a name: file systems take 255, and figures of a run have some more.
+constexpr std::size_t longest_folder = 200;
 
 std::vector<std::string> split_values(std::string_view text) {
   std::vector<std::string> values(1);
@@ -59,6 +63,8 @@ std::string folder_of_value(std::string_view value) {
                        std::string_view(".+-_").find(letter) != std::string_view::npos;
     name += plain ? letter : '_';
   }
+  if (name.size() > longest_folder)  // values that begin alike have folders of their own
+    name = name.substr(0, longest_folder - 33) + '_' + hash_of_bytes(value);
   return name == "." || name == ".." ? "_" : name;
 }
 

@@ -18,7 +18,8 @@ struct Variation {
 /// Throws InputError.
 Variation parse_variation(std::string_view text);
 
-/// Name of the subfolder for the run of a value: the value with all but letters, digits and . + - _ replaced.
+/// Name of the subfolder for the run of a value: the value with all but letters, digits and . + - _ replaced,
+/// and with a hash for its end where it is long.
 std::string folder_of_value(std::string_view value);
 
 }  // namespace talus

@@ -71,18 +71,9 @@ const char* dashes(std::size_t index) {
   return kinds[index % std::size(kinds)];
 }
 
-std::string in_file_name(std::string text) {
-  for (char& letter : text) {
-    if (letter == '/' || letter == '\\' || letter == ' ') letter = '_';
-  }
-  return text;
-}
-
+/// The folder of a value has a name that any file may have.
 std::string suffix(const Results& run) {
-  std::string text;
-  if (!run.name.empty()) text += '_';
-  text += in_file_name(run.name);
-  return text;
+  return run.name.empty() ? "" : fmt::format("_{}", run.folder.filename().string());
 }
 
 void draw_monitors(const std::vector<Results>& runs, Figures& figures) {

@@ -31,4 +31,11 @@ TEST_CASE("a value makes a folder name that stays within its folder", "[compare]
   CHECK(folder_of_value("1e-4") == "1e-4");
   CHECK(folder_of_value("../x y") == ".._x_y");
   CHECK(folder_of_value("..") == "_");
+  const std::string long_value(200, 'a');
+  CHECK(folder_of_value(long_value) == long_value);
+  const std::string first = folder_of_value(long_value + "b"), second = folder_of_value(long_value + "c");
+  CHECK(first.size() == 200);
+  CHECK(first.starts_with("aaa"));
+  CHECK(first != second);
+  CHECK(folder_of_value(long_value + "b") == first);
 }
