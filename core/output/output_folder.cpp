@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -23,22 +27,50 @@ bool is_frame(const fs::path& file) {
          (name.ends_with(".vtu") || name.ends_with(".vtu.part"));
 }
 
-std::vector<fs::path> results_in(const fs::path& folder) {
+constexpr const char* files_of_run[] = {
+    "history.csv",  "resolved.json", "run.json",    "frames.pvd",  "energy.csv",   "safety.csv",
+    "safety.svg",   "mechanism.svg", "report.html", "compare.csv", "compare.json", "compare_reference.csv",
+    checkpoint_name};
+constexpr const char* files_of_study[] = {"study.csv", "study.json", "study.svg", "study.html"};
+
+std::vector<fs::path> present(const fs::path& folder, std::span<const char* const> names) {
   std::vector<fs::path> found;
-  for (const char* name : {"history.csv", "resolved.json", "run.json", "frames.pvd", "energy.csv",
-                           "safety.csv", "safety.svg", "mechanism.svg", "report.html", "compare.csv",
-                           "compare.json", "compare_reference.csv", checkpoint_name}) {
+  for (const char* name : names) {
     for (const char* ending : {"", ".part"}) {
       if (fs::exists(folder / (std::string(name) + ending)))
         found.push_back(folder / (std::string(name) + ending));
     }
   }
+  return found;
+}
+
+std::vector<fs::path> results_in(const fs::path& folder) {
+  std::vector<fs::path> found = present(folder, files_of_run);
   if (fs::is_directory(folder / "frames")) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
       if (is_frame(entry.path())) found.push_back(entry.path());
     }
   }
   return found;
+}
+
+/// As a study names the folders of its runs: run_0001, and run_0001_2 for the second time.
+bool is_name_of_run(const std::string& name) {
+  constexpr std::string_view digits = "0123456789", digits_and_line = "0123456789_";
+  return name.size() >= 8 && name.starts_with("run_") && name.find_first_not_of(digits, 4) >= 8 &&
+         name.find_first_not_of(digits_and_line, 4) == std::string::npos;
+}
+
+std::vector<fs::path> runs_of_study(const fs::path& folder) {
+  std::vector<fs::path> runs;
+  if (!fs::is_directory(folder)) return runs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (is_name_of_run(entry.path().filename().string()) && entry.is_directory() &&
+        !results_in(entry.path()).empty())
+      runs.push_back(entry.path());
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs;
 }
 
 void refuse_file(const fs::path& folder) {
@@ -56,17 +88,30 @@ void refuse_to_remove(const fs::path& result, const std::vector<fs::path>& read)
   }
 }
 
+/// A study cannot go on in a folder that has other results beside its runs.
+void refuse_study(const fs::path& folder) {
+  std::vector<fs::path> of_study = present(folder, files_of_study);
+  for (fs::path& run : runs_of_study(folder)) of_study.push_back(std::move(run));
+  if (of_study.empty()) return;
+  throw InputError(fmt::format(
+      "'{}' holds a study ('{}'), which could not go on beside other results: give --out another folder, or "
+      "--overwrite to replace its tables",
+      folder.string(), of_study[0].filename().string()));
+}
+
 }  // namespace
 
 void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
   refuse_file(folder);
-  const std::vector<fs::path> results = results_in(folder);
+  std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && !overwrite) {
     throw InputError(fmt::format(
         "'{}' holds results already ('{}'): give --overwrite to replace them or --out for another "
         "folder",
         folder.string(), results[0].filename().string()));
   }
+  if (!overwrite) refuse_study(folder);
+  for (fs::path& file : present(folder, files_of_study)) results.push_back(std::move(file));
   for (const fs::path& file : results) refuse_to_remove(file, read);
   fs::create_directories(folder);
   const FolderLock mine(folder);
@@ -79,8 +124,7 @@ void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>&
     throw InputError(fmt::format("'{}' holds results of a single run ('{}'): give --out another folder",
                                  folder.string(), results[0].filename().string()));
   }
-  for (const char* name : {"study.csv", "study.json", "study.svg", "study.html"})
-    refuse_to_remove(folder / name, read);
+  for (const char* name : files_of_study) refuse_to_remove(folder / name, read);
   fs::create_directories(folder);
 }
 

@@ -7,7 +7,7 @@ namespace talus {
 
 /// Makes the folder that results go to. One that holds results already, or that another run writes into, is
 /// refused (InputError); with `overwrite` it is cleared of results: of files that talus writes, never of
-/// others, and none of those that were `read` to make the results.
+/// others, and none of those that were `read` to make the results. Runs of a study stay; its tables do not.
 void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
                            const std::vector<std::filesystem::path>& read = {});
 

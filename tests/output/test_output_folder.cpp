@@ -36,3 +36,18 @@ TEST_CASE("results are not overwritten unasked, other files never", "[output][fi
   CHECK_NOTHROW(prepare_output_folder(folder, true, {folder / "notes.txt"}));
   CHECK_NOTHROW(prepare_folder_of_runs(folder));
 }
+
+TEST_CASE("a folder of a study takes no other results unasked", "[output][files]") {
+  const Scratch scratch;
+  scratch.write("study.csv", "");
+  CHECK_THROWS_WITH(prepare_output_folder(scratch.folder(), false),
+                    Contains("holds a study ('study.csv')") && Contains("--out"));
+  CHECK_NOTHROW(prepare_folder_of_runs(scratch.folder()));
+  std::filesystem::create_directories(scratch / "run_0002");
+  scratch.write("run_0002/history.csv", "");
+  prepare_output_folder(scratch.folder(), true);
+  CHECK_FALSE(std::filesystem::exists(scratch / "study.csv"));
+  CHECK(std::filesystem::exists(scratch / "run_0002/history.csv"));
+  // One that was broken off has no tables.
+  CHECK_THROWS_WITH(prepare_output_folder(scratch.folder(), false), Contains("holds a study ('run_0002')"));
+}
