@@ -3,6 +3,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
+#include "output/quantity.hpp"
 #include "output/records.hpp"
 
 #include <fmt/format.h>
@@ -44,8 +45,27 @@ std::vector<fs::path> present(const fs::path& folder, std::span<const char* cons
   return found;
 }
 
+/// What `talus view` drew of the results of a folder, by the names that it gives.
+std::vector<fs::path> figures_in(const fs::path& folder) {
+  if (!fs::exists(folder / "run.json") && !fs::exists(folder / "compare.json")) return {};
+  std::vector<std::string> names{"contact_forces.svg"};
+  for (const Quantity& quantity : quantities()) names.push_back(fmt::format("{}.svg", quantity.name));
+  std::vector<std::string> runs{""};
+  if (const auto comparison = comparison_record_in(folder)) {
+    for (const auto& run : comparison->at("runs"))
+      runs.push_back(fmt::format("_{}", fs::path(run.at("folder").get<std::string>()).filename().string()));
+  }
+  for (const char* kind : {"energy", "first_state", "last_state"}) {
+    for (const std::string& run : runs) names.push_back(fmt::format("{}{}.svg", kind, run));
+  }
+  std::vector<const char*> each;
+  for (const std::string& name : names) each.push_back(name.c_str());
+  return present(folder / "figures", each);
+}
+
 std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> found = present(folder, files_of_run);
+  for (fs::path& figure : figures_in(folder)) found.push_back(std::move(figure));
   if (fs::is_directory(folder / "frames")) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
       if (is_frame(entry.path())) found.push_back(entry.path());
@@ -99,6 +119,13 @@ void refuse_study(const fs::path& folder) {
       folder.string(), of_study[0].filename().string()));
 }
 
+/// Of a link only what it leads to is meant.
+void remove_if_empty(const fs::path& folder) {
+  std::error_code kept;
+  if (!fs::is_symlink(folder, kept) && fs::is_directory(folder, kept) && fs::is_empty(folder, kept))
+    fs::remove(folder, kept);
+}
+
 }  // namespace
 
 void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
@@ -116,6 +143,7 @@ void prepare_output_folder(const fs::path& folder, bool overwrite, const std::ve
   fs::create_directories(folder);
   const FolderLock mine(folder);
   for (const fs::path& file : results) fs::remove(file);
+  remove_if_empty(folder / "figures");
 }
 
 void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>& read) {

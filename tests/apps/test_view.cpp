@@ -38,3 +38,30 @@ TEST_CASE("no figures are drawn of a comparison whose record is damaged", "[apps
   }
   CHECK_FALSE(std::filesystem::exists(scratch / "figures"));
 }
+
+TEST_CASE("figures go with the results that they are of", "[apps][view]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const std::vector<std::string> run{"run", "small.json", "--quiet", "--out", "out", "--overwrite"};
+  REQUIRE(call_talus(scratch.folder(), run).code == 0);
+  REQUIRE(call_talus(scratch.folder(), {"view", "out"}).code == 0);
+  REQUIRE(std::filesystem::exists(scratch / "out/figures/energy.svg"));
+  scratch.write("out/figures/energy_by_hand.svg", "mine");
+  REQUIRE(call_talus(scratch.folder(), run).code == 0);
+  REQUIRE(std::filesystem::exists(scratch / "out/figures"));
+  CHECK(std::distance(std::filesystem::directory_iterator(scratch / "out/figures"), {}) == 1);
+  CHECK(read_whole_file(scratch / "out/figures/energy_by_hand.svg") == "mine");
+
+  const std::string long_title(300, 't');
+  const std::vector<std::string> compare{"compare",     "small.json", "--out",  "c",
+                                         "--overwrite", "--quiet",    "--vary", "/title=a b," + long_title};
+  const Call compared = call_talus(scratch.folder(), compare);
+  INFO(compared.err);
+  REQUIRE(compared.code == 0);
+  const Call viewed = call_talus(scratch.folder(), {"view", "c"});
+  INFO(viewed.err);
+  REQUIRE(viewed.code == 0);
+  CHECK_THAT(viewed.out, Contains("energy_a_b.svg") && Contains("last_state_ttt"));
+  REQUIRE(call_talus(scratch.folder(), compare).code == 0);
+  CHECK_FALSE(std::filesystem::exists(scratch / "c/figures"));
+}
