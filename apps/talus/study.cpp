@@ -18,7 +18,8 @@ Usage usage_of_study() {
       "already are "
       "not made\n"
       "again, so a study that was broken off goes on with the same words; those with other values, other\n"
-      "instructions or of another processor are replaced with --overwrite alone.",
+      "instructions or of another processor are replaced with --overwrite alone, which also removes what\n"
+      "else the folder holds of an earlier study.",
       "SCENE",
       "  talus study scenes/incline.json --vary /time/dt=6e-5,3e-5,1.5e-5 --vary "
       "/contact/model=overlap_area,vertex_edge\n"

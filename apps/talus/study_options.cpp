@@ -80,7 +80,7 @@ void add_study_options(Usage& usage) {
       "what errors are of (default: the first speed of a body that moves)")(
       "out,o", po::value<std::string>()->value_name("DIR"),
       fmt::format("folder for the results (default: out/<scene name>-{})", usage.command).c_str())(
-      "overwrite", "replace runs with other values that the folder holds")(
+      "overwrite", "replace what the folder holds of other studies: runs with other values, and tables")(
       "repeat", po::value<int>()->value_name("N")->default_value(1),
       "make each run N times, all of them in turn, and take the median of their cost")(
       "threads", po::value<std::string>()->value_name("N"),

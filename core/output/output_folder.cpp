@@ -156,6 +156,23 @@ void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>&
   fs::create_directories(folder);
 }
 
+void remove_study(const fs::path& folder, const std::function<bool(const fs::path&)>& stays,
+                  const std::vector<fs::path>& read) {
+  std::vector<fs::path> files = present(folder, files_of_study), runs = runs_of_study(folder);
+  std::erase_if(runs, stays);
+  for (const fs::path& run : runs) {
+    for (fs::path& file : results_in(run)) files.push_back(std::move(file));
+  }
+  for (const fs::path& file : files) refuse_to_remove(file, read);
+  for (const fs::path& table : present(folder, files_of_study)) fs::remove(table);
+  for (const fs::path& run : runs) {
+    const FolderLock mine(run);
+    for (const fs::path& file : results_in(run)) fs::remove(file);
+    for (const char* within : {"frames", "figures"}) remove_if_empty(run / within);
+    remove_if_empty(run);
+  }
+}
+
 bool holds_finished_run(const fs::path& folder) {
   const auto record = run_record_in(folder);
   return record && record->at("end") == "finished";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace talus {
@@ -16,6 +17,13 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
 /// `read` to make them.
 void prepare_folder_of_runs(const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& read = {});
+
+/// Takes the tables of a study and its runs out of a folder: of those that do not stay what talus writes, and
+/// their folders where nothing else is in them. Throws InputError, and removes nothing, where one was `read`
+/// to make others.
+void remove_study(const std::filesystem::path& folder,
+                  const std::function<bool(const std::filesystem::path& run)>& stays,
+                  const std::vector<std::filesystem::path>& read);
 
 /// Whether it holds a run that came to its end, as far as its record can be read.
 bool holds_finished_run(const std::filesystem::path& folder);

@@ -148,7 +148,11 @@ class Runs {
       : order_(order), runs_(order.plan.points.size()), problems_(order.plan.points.size()) {}
 
   std::vector<StudyRun> make() {
-    if (!order_.overwrite) refuse_other_runs();
+    if (order_.overwrite) {
+      remove_other_runs();
+    } else {
+      refuse_other_runs();
+    }
     {
       std::vector<std::jthread> threads;
       for (int i = 0; i < std::max(1, order_.threads); ++i) threads.emplace_back([this] { work(); });
@@ -180,6 +184,34 @@ class Runs {
             "--out another folder",
             folder.string()));
     }
+  }
+
+  /// What this study will not tell of. Where none of its scenes can run it tells of nothing, and all stays.
+  void remove_other_runs() {
+    std::vector<std::filesystem::path> read_files{order_.reference};
+    std::map<std::filesystem::path, std::size_t> numbers;
+    bool any_runs = false;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      for (int time = 0; time < order_.times; ++time) numbers[folder_name(i, time)] = i;
+      try {
+        const HeldScene held = read(overrides_of(i));
+        for (std::filesystem::path& file : held.scene.files_read()) read_files.push_back(std::move(file));
+        if (!any_runs) {
+          const Simulation tried(held.scene, {});
+          any_runs = true;
+        }
+      } catch (const SceneError&) {  // a refused run, which is told of when it is its turn
+      } catch (const InputError&) {
+      }
+    }
+    if (!any_runs) return;
+    const auto stays = [&](const std::filesystem::path& folder) {
+      const auto number = numbers.find(folder.filename());
+      const std::optional<Json> record = run_record_in(folder);
+      return number != numbers.end() && record &&
+             !of_another_study(*record, overrides_of(number->second), order_.scene_hash, order_.simd);
+    };
+    remove_study(order_.folder, stays, read_files);
   }
 
   bool interrupted() const { return order_.interrupted != nullptr && *order_.interrupted; }

@@ -42,7 +42,7 @@ struct StudyOrder {
   SimdLevel simd = SimdLevel::scalar;
   int threads = 1;                  ///< runs at a time, one thread each
   std::filesystem::path reference;  ///< that no run may replace; empty: none
-  bool overwrite = false;           ///< other runs that the folder holds
+  bool overwrite = false;           ///< what the folder holds of other studies
   int times = 1;  ///< that each run is made, all of them in turn, for the median of their cost
   /// Reads the scene with overrides; throws SceneError. Never called twice at a time.
   std::function<HeldScene(const std::vector<Override>&)> read;

@@ -10,6 +10,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <array>
 
@@ -100,13 +102,13 @@ TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]
   CHECK(call.code == 0);
   CHECK_THAT(call.out, Contains("for 5 % take --set /time/safety="));
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "1e-9%", "--quiet"}).code == 6);
-  CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
-  CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
   const Call quoted =
       call_talus(scratch.folder(), {"advise", "small.json", "--error", "50%", "--quiet", "--vary",
                                     "/time/dt=2e-4,1e-4", "--vary", R"(/title="a b")", "--out", "q"});
   INFO(quoted.out + quoted.err);
   CHECK_THAT(quoted.out, Contains(R"( --set '/title="a b"')"));
+  CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
+  CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
 }
 
 TEST_CASE("A study does not go on with a table that was changed while it ran", "[apps][study]") {
@@ -192,6 +194,54 @@ TEST_CASE("A study replaces neither its scene nor its reference", "[apps][study]
   CHECK(curve.code == 2);
   CHECK_THAT(curve.err, Contains("is read to make the results that would replace it"));
   CHECK(read_whole_file(scratch / "mine/study.csv") == reference);
+}
+
+TEST_CASE("A study that replaces another leaves nothing of it, and a run that it shares", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto study = [&](const std::string& steps, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"study", "small.json", "--quiet",          "--out",
+                                   "s",     "--vary",     "/time/dt=" + steps};
+    words.insert(words.end(), more.begin(), more.end());
+    return call_talus(scratch.folder(), words);
+  };
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::exists(scratch / ("s/" + name));
+  };
+  REQUIRE(study("2e-4,1e-4,5e-5", {"--repeat", "2"}).code == 0);
+  scratch.write("s/run_0003/notes.txt", "mine");
+  const auto kept = std::filesystem::last_write_time(scratch / "s/run_0001/run.json");
+
+  // Where none of its scenes can run it replaces nothing.
+  const Call none = study("-1,-2", {"--overwrite"});
+  CHECK(none.code == 2);
+  CHECK(is_there("study.csv"));
+  CHECK(is_there("run_0002/run.json"));
+  const Call read = study("2e-4", {"--overwrite", "--reference", "s/run_0003/history.csv"});
+  CHECK(read.code == 2);
+  CHECK_THAT(read.err, Contains("is read to make the results that would replace it"));
+  CHECK(is_there("study.csv"));
+  CHECK(is_there("run_0002/run.json"));
+
+  const Call call = study("2e-4,-1", {"--overwrite"});
+  INFO(call.out + call.err);
+  REQUIRE(call.code == 0);
+  CHECK(std::filesystem::last_write_time(scratch / "s/run_0001/run.json") == kept);
+  CHECK_FALSE(is_there("run_0001_2"));
+  CHECK_FALSE(is_there("run_0002"));
+  CHECK_FALSE(is_there("run_0003/run.json"));
+  CHECK(read_whole_file(scratch / "s/run_0003/notes.txt") == "mine");
+  CHECK(json_of(scratch / "s/study.json")["runs"].size() == 2);
+
+  // Broken off, it has no tables of the one before.
+  const Call broken =
+      call_and_signal(scratch.folder(),
+                      {"study", "small.json", "--quiet", "--out", "s", "--vary", "/time/end=1e5,2e5",
+                       "--threads", "2", "--set", "/output/history=0.1", "--overwrite"},
+                      SIGINT, scratch / "s/run_0002/frames.pvd");
+  CHECK(broken.code == 130);
+  for (const char* table : {"study.csv", "study.json", "study.svg", "study.html"})
+    CHECK_FALSE(is_there(table));
 }
 
 TEST_CASE("A run of a study whose record is damaged is made again", "[apps][study]") {

@@ -51,3 +51,26 @@ TEST_CASE("a folder of a study takes no other results unasked", "[output][files]
   // One that was broken off has no tables.
   CHECK_THROWS_WITH(prepare_output_folder(scratch.folder(), false), Contains("holds a study ('run_0002')"));
 }
+
+TEST_CASE("of a study that is replaced tables and runs go, and nothing else", "[output][files][study]") {
+  const Scratch scratch;
+  for (const char* folder :
+       {"run_0001/frames", "run_0001_2", "run_0002", "run_0003", "run_0004", "run_away", "run_12"})
+    std::filesystem::create_directories(scratch / folder);
+  for (const char* file :
+       {"study.csv", "study.html", "notes.txt", "run_0001/run.json", "run_0001/frames.pvd",
+        "run_0001/frames/frame_000000.vtu", "run_0001_2/run.json", "run_0002/run.json", "run_0003/run.json",
+        "run_0003/notes.txt", "run_0004/notes.txt", "run_away/run.json", "run_12/run.json"})
+    scratch.write(file, "");
+  const auto stays = [](const std::filesystem::path& run) { return run.filename() == "run_0002"; };
+  CHECK_THROWS_WITH(remove_study(scratch.folder(), stays, {scratch / "run_0003/run.json"}),
+                    Contains("run_0003/run.json' is read to make the results"));
+  CHECK(std::filesystem::exists(scratch / "study.csv"));
+  CHECK(std::filesystem::exists(scratch / "run_0001/run.json"));
+  remove_study(scratch.folder(), stays, {});
+  for (const char* gone : {"study.csv", "study.html", "run_0001", "run_0001_2", "run_0003/run.json"})
+    CHECK_FALSE(std::filesystem::exists(scratch / gone));
+  for (const char* kept : {"notes.txt", "run_0002/run.json", "run_0003/notes.txt", "run_0004/notes.txt",
+                           "run_away/run.json", "run_12/run.json"})
+    CHECK(std::filesystem::exists(scratch / kept));
+}
