@@ -118,8 +118,8 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   made.bridged = bridge_pinches(blocks, geos);
   for (Block& block : blocks) orient(block);
   made.names_of_one_line = name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
-  for (Block& block : blocks) {
-    drop_idle_vertices(block, tolerance);
+  drop_idle_vertices(blocks, tolerance);
+  for (const Block& block : blocks) {
     if (std::abs(area_of(block.loops) - block.area) > lost * size * size)
       throw std::runtime_error("a block loses its shape where vertices all but coincide: move lines apart");
   }

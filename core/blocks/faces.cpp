@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -37,18 +38,57 @@ struct Outline {
   std::vector<std::uint32_t> surfaces;  ///< [edge]
 };
 
+/// How far off a vertex may be, m, to be left out.
+class Slack {
+ public:
+  Slack(const std::vector<Block>& blocks, double most) : most_(most) {
+    for (const Block& block : blocks) {
+      const double narrow = share_of_width * width_of(block);
+      if (narrow >= most) continue;
+      for (const Ring& ring : block.loops) {
+        for (const Vec2 vertex : ring) {
+          double& kept = narrow_.try_emplace({vertex.x, vertex.y}, narrow).first->second;
+          kept = std::min(kept, narrow);
+        }
+      }
+    }
+  }
+
+  double at(Vec2 vertex) const {
+    const auto found = narrow_.find({vertex.x, vertex.y});
+    return found == narrow_.end() ? most_ : found->second;
+  }
+
+ private:
+  /// A fifth of that by which neighbours may overlap and count as touching, overlapping_bodies.
+  static constexpr double share_of_width = 2e-7;
+
+  static double width_of(const Block& block) {
+    double perimeter = 0;
+    for (const Ring& ring : block.loops) {
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        perimeter += distance(ring[i], ring[(i + 1) % ring.size()]);
+    }
+    return 2 * block.area / perimeter;
+  }
+
+  double most_;
+  std::map<std::pair<double, double>, double> narrow_;  ///< of the vertices of thin blocks
+};
+
 /// Of vertices at one place, also where the ring closes, one alone, with the edge that leaves them.
-Outline without_repeated(const Outline& all, double tolerance) {
+Outline without_repeated(const Outline& all, const Slack& slack) {
+  const auto same = [&](Vec2 a, Vec2 b) { return distance(a, b) <= std::min(slack.at(a), slack.at(b)); };
   Outline kept;
   for (std::size_t i = 0; i < all.ring.size(); ++i) {
-    if (kept.ring.empty() || distance(kept.ring.back(), all.ring[i]) > tolerance) {
+    if (kept.ring.empty() || !same(kept.ring.back(), all.ring[i])) {
       kept.ring.push_back(all.ring[i]);
       kept.surfaces.push_back(all.surfaces[i]);
     } else {
       kept.surfaces.back() = all.surfaces[i];
     }
   }
-  while (kept.ring.size() > 1 && distance(kept.ring.back(), kept.ring.front()) <= tolerance) {
+  while (kept.ring.size() > 1 && same(kept.ring.back(), kept.ring.front())) {
     kept.ring.pop_back();
     kept.surfaces.pop_back();
   }
@@ -62,6 +102,26 @@ bool is_idle(Vec2 before, Vec2 at, Vec2 after, double tolerance) {
   const double off = ((at.x - before.x) * dy - (at.y - before.y) * dx) / length;
   const double ahead = (at.x - before.x) * dx + (at.y - before.y) * dy;
   return std::abs(off) <= tolerance && ahead > 0 && ahead < length * length;
+}
+
+void drop_idle_vertices_of(Block& block, const Slack& slack) {
+  for (std::size_t loop = 0; loop < block.loops.size(); ++loop) {
+    const Outline apart = without_repeated({block.loops[loop], block.edge_surface[loop]}, slack);
+    Outline kept;
+    for (std::size_t i = 0; i < apart.ring.size(); ++i) {
+      const bool first = kept.ring.empty(), last = i + 1 == apart.ring.size();
+      const Vec2 before = first ? apart.ring.back() : kept.ring.back();
+      const Vec2 after = !last ? apart.ring[i + 1] : first ? apart.ring[0] : kept.ring[0];
+      const std::uint32_t arriving = first ? apart.surfaces.back() : kept.surfaces.back();
+      if (arriving == apart.surfaces[i] && is_idle(before, apart.ring[i], after, slack.at(apart.ring[i])))
+        continue;
+      kept.ring.push_back(apart.ring[i]);
+      kept.surfaces.push_back(apart.surfaces[i]);
+    }
+    if (kept.ring.size() < 3) continue;
+    block.loops[loop] = std::move(kept.ring);
+    block.edge_surface[loop] = std::move(kept.surfaces);
+  }
 }
 
 bool is_convex_quadrilateral(const Block& block) {
@@ -115,23 +175,9 @@ void sort_blocks(std::vector<Block>& blocks, double same) {
   std::sort(blocks.begin(), blocks.end(), [&](const Block& a, const Block& b) { return key(a) < key(b); });
 }
 
-void drop_idle_vertices(Block& block, double tolerance) {
-  for (std::size_t loop = 0; loop < block.loops.size(); ++loop) {
-    const Outline apart = without_repeated({block.loops[loop], block.edge_surface[loop]}, tolerance);
-    Outline kept;
-    for (std::size_t i = 0; i < apart.ring.size(); ++i) {
-      const bool first = kept.ring.empty(), last = i + 1 == apart.ring.size();
-      const Vec2 before = first ? apart.ring.back() : kept.ring.back();
-      const Vec2 after = !last ? apart.ring[i + 1] : first ? apart.ring[0] : kept.ring[0];
-      const std::uint32_t arriving = first ? apart.surfaces.back() : kept.surfaces.back();
-      if (arriving == apart.surfaces[i] && is_idle(before, apart.ring[i], after, tolerance)) continue;
-      kept.ring.push_back(apart.ring[i]);
-      kept.surfaces.push_back(apart.surfaces[i]);
-    }
-    if (kept.ring.size() < 3) continue;
-    block.loops[loop] = std::move(kept.ring);
-    block.edge_surface[loop] = std::move(kept.surfaces);
-  }
+void drop_idle_vertices(std::vector<Block>& blocks, double most) {
+  const Slack slack(blocks, most);
+  for (Block& block : blocks) drop_idle_vertices_of(block, slack);
 }
 
 void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest) {

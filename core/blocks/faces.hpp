@@ -23,9 +23,10 @@ void orient(Block& block);
 /// Sorts by centroid and area; places less than `same` (m) apart count as one.
 void sort_blocks(std::vector<Block>& blocks, double same);
 
-/// Drops vertices within `tolerance` (m) of the one before or of the line between their neighbours, where
-/// both edges are of the same surface.
-void drop_idle_vertices(Block& block, double tolerance);
+/// Drops vertices within `most` (m) of the one before or of the line between their neighbours, where both
+/// edges are of the same surface. Beside thin blocks less is allowed: what one block loses there its
+/// neighbour may keep, and the two must not overlap by more than rounding.
+void drop_idle_vertices(std::vector<Block>& blocks, double most);
 
 /// Splits a share of the convex quadrilaterals along their shorter diagonals, at random by their order,
 /// where no triangle is below `smallest` (m²).

@@ -340,3 +340,16 @@ TEST_CASE("vertices that all but coincide where a ring closes cost no corner", "
     }
   }
 }
+
+TEST_CASE("blocks beside a seam between lines that all but coincide do not overlap", "[blocks]") {
+  // Where the joints on each other cross the seam of 3 mm, corners of it lie 1e-9 m off its sides.
+  const auto bodies = made(
+      R"("joints": [{"points": [[-286.75721130154716, -93.1144551966012], [262.6403447021895, 148.05421079697487]]},
+                              {"points": [[-286.7584171448771, -93.11170820882118], [262.63913885885955, 148.0569577847549]]},
+                              {"points": [[26.872848822480243, -10], [169.48674738744654, 120]]},
+                              {"points": [[26.872848822, -10], [169.486747387, 120]]}])",
+      "[[0, 0], [200, 0], [200, 40], [140, 110], [0, 110]]");
+  CHECK(bodies.size() == 6);
+  // A side of up to 200 m may leave out what is 1e-10 of the size off, 2e-8 m.
+  CHECK(area_sum(bodies) == Approx(200 * 110 - 60 * 70 / 2).margin(200 * 2e-8));
+}
