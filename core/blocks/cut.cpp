@@ -1,12 +1,14 @@
 #include "blocks/cut.hpp"
 
 #include "blocks/faces.hpp"
+#include "blocks/line_ends.hpp"
 #include "blocks/loose_ends.hpp"
 #include "blocks/pinches.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,11 +16,10 @@ namespace talus {
 namespace {
 
 // Shares of the domain's size.
-constexpr double reach = 1e-8;                // by which ends of lines are lengthened
+constexpr double reach_of_size = 1e-8;        // by which ends of lines are lengthened
 constexpr double thinnest_of_size = 1e-7;     // width below which a block is a sliver, well above the reach
 constexpr double grids[] = {0, 1e-10, 1e-9};  // that vertices are moved to, the first that does
 constexpr double idle = 1e-10;                // off a straight side that a vertex is left out of
-constexpr double loose = 2e-9;                // short of a line by more than rounding: what cut lies on it
 constexpr double hairline = 1e-11;            // width of a face that rounding alone made
 
 // Share of the square around the domain by which faces may miss its area: less than any block that is none.
@@ -29,7 +30,7 @@ Vec2 beyond(Vec2 before, Vec2 end, double length) {
   return {end.x + dx / whole * length, end.y + dy / whole * length};
 }
 
-/// A line with both ends lengthened, so that one which ends on another within rounding cuts it. The old ends
+/// A line with both ends lengthened, so that one which ends on another within rounding cuts it. The ends
 /// stay vertices: lines that share one still do. What leads nowhere bounds no face.
 std::vector<Vec2> lengthened(const std::vector<Vec2>& points, double length) {
   const std::size_t last = points.size() - 1;
@@ -69,14 +70,15 @@ std::vector<Block> faces_within(const Block& domain, const GEOSGeometry& lines, 
 
 /// Where two lines all but lie on each other, rounding decides where they cross: hairlines lie between them,
 /// and faces beside those may be lost. Then all vertices are moved to a grid.
-std::vector<Block> faces_of(const CutOrder& order, double size, const Geos& geos) {
+std::vector<Block> faces_of(const CutOrder& order, const std::vector<Cut>& cuts, double size,
+                            const Geos& geos) {
   std::vector<Geos::Geometry> parts;
   for (const Ring& ring : order.domain.loops) {
     Ring closed = ring;
     closed.push_back(ring[0]);
     parts.push_back(geos.line(closed));
   }
-  for (const Cut& cut : order.cuts) parts.push_back(geos.line(lengthened(cut.points, reach * size)));
+  for (const Cut& cut : cuts) parts.push_back(geos.line(lengthened(cut.points, reach_of_size * size)));
   const Geos::Geometry lines = geos.collection(GEOS_MULTILINESTRING, std::move(parts));
   const double domain = area_of(order.domain.loops);
   for (const double grid : grids) {
@@ -105,10 +107,16 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double farthest =
       std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
   const double tolerance = idle * size + 0x1p-50 * farthest;
-  std::vector<Block> faces = faces_of(order, size, geos);
+  const bool drawn =
+      std::any_of(order.cuts.begin(), order.cuts.end(), [](const Cut& cut) { return cut.drawn; });
+  std::optional<SidesByPlace> sides;
+  if (drawn) sides.emplace(order.cuts, order.domain, reach_of_size * size, geos);
+  const std::vector<Cut> cuts =
+      drawn ? joined_ends(order.cuts, order.domain, *sides, reach_of_size * size) : order.cuts;
+  std::vector<Block> faces = faces_of(order, cuts, size, geos);
   sort_blocks(faces, 1e-9 * size);
   CutDomain made;
-  made.loose_ends = loose_ends(order.cuts, faces, loose * size);
+  if (drawn) made.loose_ends = loose_ends(ends_of(order.cuts), faces, *sides, reach_of_size * size);
   double sum = 0;
   for (const Block& face : faces) sum += face.area;
   const double mean = faces.empty() ? 0 : sum / static_cast<double>(faces.size());
@@ -117,7 +125,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
   made.bridged = bridge_pinches(blocks, geos);
   for (Block& block : blocks) orient(block);
-  made.names_of_one_line = name_edges(blocks, order.domain, order.cuts, 10 * reach * size, geos);
+  made.names_of_one_line = name_edges(blocks, order.domain, cuts, 10 * reach_of_size * size, geos);
   drop_idle_vertices(blocks, tolerance);
   for (const Block& block : blocks) {
     if (std::abs(area_of(block.loops) - block.area) > lost * size * size)

@@ -78,28 +78,35 @@ class FacesAlong {
   std::size_t begun_ = 0;
 };
 
+/// To the nearest line, `most` if none is nearer. Few of many lines are looked at where one is near.
+double gap_to_lines(const LineEnd& end, const SidesByPlace& sides, double reach, double most) {
+  double least = most;
+  for (double radius = reach; least == most; radius *= 8) {
+    sides.each_near(end, std::min(radius, most),
+                    [&](const LineSide&, double distance) { least = std::min(least, distance); });
+    if (radius >= most) break;
+  }
+  return least;
+}
+
 }  // namespace
 
-std::vector<LooseEnd> loose_ends(const std::vector<Cut>& cuts, const std::vector<Block>& faces,
-                                 double margin) {
-  std::vector<Vec2> ends;
-  for (const Cut& cut : cuts) {
-    const Vec2 first = cut.points.front(), last = cut.points.back();
-    if (!cut.drawn || (first.x == last.x && first.y == last.y)) continue;
-    ends.insert(ends.end(), {first, last});
-  }
+std::vector<LooseEnd> loose_ends(const std::vector<LineEnd>& ends, const std::vector<Block>& faces,
+                                 const SidesByPlace& sides, double reach) {
   std::vector<std::size_t> order(ends.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t p, std::size_t q) { return std::pair(ends[p].x, p) < std::pair(ends[q].x, q); });
+  std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
+    return std::pair(ends[p].at.x, p) < std::pair(ends[q].at.x, q);
+  });
   FacesAlong along(faces);
   std::vector<double> gaps(ends.size(), 0);
   for (const std::size_t end : order) {
-    if (const BoxedFace* face = along.face_at(ends[end])) gaps[end] = face->gap(ends[end]);
+    if (const BoxedFace* face = along.face_at(ends[end].at))
+      gaps[end] = gap_to_lines(ends[end], sides, reach, face->gap(ends[end].at));
   }
   std::vector<LooseEnd> found;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (gaps[i] > margin) found.push_back({ends[i], gaps[i]});
+    if (gaps[i] > reach) found.push_back({ends[i].at, gaps[i]});
   }
   return found;
 }

@@ -1,8 +1,8 @@
 #include "blocks/faces.hpp"
+#include "blocks/segment_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 namespace talus {
@@ -34,66 +34,45 @@ bool is_near(const Segment& segment, Vec2 point, double tolerance) {
   return distance_from(point, segment.from, segment.to) <= tolerance;
 }
 
-struct TreeEnd {
-  GEOSContextHandle_t context;
-  void operator()(GEOSSTRtree* tree) const { GEOSSTRtree_destroy_r(context, tree); }
-};
+std::vector<PlainSegment> places_of(const std::vector<Segment>& segments) {
+  std::vector<PlainSegment> places;
+  for (const Segment& segment : segments) places.push_back({segment.from, segment.to});
+  return places;
+}
 
 /// Segments by place.
 class Index {
  public:
   Index(const std::vector<Segment>& segments, double tolerance, const Geos& geos)
-      : segments_(segments),
-        tolerance_(tolerance),
-        geos_(geos),
-        tree_(GEOSSTRtree_create_r(geos.context(), 8), TreeEnd{geos.context()}) {
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      lines_.push_back(geos.line({segments[i].from, segments[i].to}));
-      GEOSSTRtree_insert_r(geos.context(), tree_.get(), lines_.back().get(),
-                           const_cast<Segment*>(&segments_[i]));
-    }
-  }
+      : segments_(segments), tolerance_(tolerance), tree_(places_of(segments), geos) {}
 
   /// The tree tells what it finds in no order: the first segment of the list wins. Of a side too long to be
   /// that of a crossing `beaten` is told the name of another.
   std::uint32_t surface_of(Vec2 from, Vec2 to, NamesOfOneLine& beaten) const {
-    Search search{from, to, tolerance_, nullptr, nullptr};
+    const Segment* found = nullptr;
+    const Segment* of_another_name = nullptr;
+    const auto look_at = [&](std::size_t number) {
+      const Segment* segment = &segments_[number];
+      if (!is_near(*segment, from, tolerance_) || !is_near(*segment, to, tolerance_)) return;
+      const Segment* other = segment;
+      if (found == nullptr || segment < found) std::swap(found, other);
+      if (other == nullptr || other->surface == found->surface) return;
+      if (of_another_name == nullptr || other < of_another_name) of_another_name = other;
+    };
     const double margin = tolerance_;
-    const Geos::Geometry around =
-        geos_.line({{std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin},
-                    {std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin}});
-    GEOSSTRtree_query_r(geos_.context(), tree_.get(), around.get(), look_at, &search);
-    if (search.found == nullptr) return 0;
+    tree_.each_near({{std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin},
+                     {std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin}},
+                    look_at);
+    if (found == nullptr) return 0;
     const bool long_enough = std::hypot(to.x - from.x, to.y - from.y) > 10 * tolerance_;
-    if (search.beaten != nullptr && long_enough)
-      beaten.emplace(search.found->surface, search.beaten->surface);
-    return search.found->surface;
+    if (of_another_name != nullptr && long_enough) beaten.emplace(found->surface, of_another_name->surface);
+    return found->surface;
   }
 
  private:
-  struct Search {
-    Vec2 from, to;
-    double tolerance;
-    const Segment* found;
-    const Segment* beaten;  ///< the first of another name
-  };
-
-  static void look_at(void* item, void* data) {
-    const auto* segment = static_cast<const Segment*>(item);
-    auto& search = *static_cast<Search*>(data);
-    if (!is_near(*segment, search.from, search.tolerance) || !is_near(*segment, search.to, search.tolerance))
-      return;
-    const Segment* other = segment;
-    if (search.found == nullptr || segment < search.found) std::swap(search.found, other);
-    if (other == nullptr || other->surface == search.found->surface) return;
-    if (search.beaten == nullptr || other < search.beaten) search.beaten = other;
-  }
-
   const std::vector<Segment>& segments_;
   double tolerance_;
-  const Geos& geos_;
-  std::unique_ptr<GEOSSTRtree, TreeEnd> tree_;
-  std::vector<Geos::Geometry> lines_;
+  SegmentTree tree_;
 };
 
 }  // namespace
