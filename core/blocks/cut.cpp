@@ -116,6 +116,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   std::vector<Block> faces = faces_of(order, cuts, size, geos);
   sort_blocks(faces, 1e-9 * size);
   CutDomain made;
+  made.pieces = faces.size();
   if (drawn) made.loose_ends = loose_ends(ends_of(order.cuts), faces, *sides, reach_of_size * size);
   double sum = 0;
   for (const Block& face : faces) sum += face.area;

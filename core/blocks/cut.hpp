@@ -39,6 +39,7 @@ using NamesOfOneLine = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct CutDomain {
   std::vector<Block> blocks;
+  std::size_t pieces = 0;  ///< that lines cut the domain into, before small ones joined others
   std::vector<LooseEnd> loose_ends;
   NamesOfOneLine names_of_one_line;
   std::vector<Vec2> bridged;  ///< where corners were cut off between boundaries of one block, see pinches.hpp

@@ -101,15 +101,13 @@ class Expander {
     section.finish();
     const std::size_t first = bodies_.size();
     if (mistakes_.count() == mistakes_before) {
-      const std::vector<Block> blocks = cut(section, domain, joints, smallest_area, smallest_share);
-      for (std::size_t i = 0; i < blocks.size(); ++i)
-        bodies_.push_back(body_of(blocks[i], fmt::format("{}_{}", name, i + 1), joints.surfaces, written));
+      const CutDomain made = cut(section, domain, joints, smallest_area, smallest_share);
+      for (std::size_t i = 0; i < made.blocks.size(); ++i)
+        bodies_.push_back(
+            body_of(made.blocks[i], fmt::format("{}_{}", name, i + 1), joints.surfaces, written));
       result.files.merge(joints.files);
       result.warnings.insert(result.warnings.end(), joints.warnings.begin(), joints.warnings.end());
-      if (blocks.size() == 1) {
-        result.warnings.push_back(fmt::format(
-            "{}: '{}' stays one block: nothing cuts its domain from side to side", pointer, name));
-      }
+      if (made.blocks.size() == 1) warn_of_one_block(section, name, made.pieces);
     }
     if (bodies_.size() == first && !name.empty()) {
       result.unmade.push_back(name);
@@ -146,6 +144,15 @@ class Expander {
                       joints.sets[i].spacing, lines, most_lines));
     }
     return good;
+  }
+
+  void warn_of_one_block(const Section& section, const std::string& name, std::size_t pieces) {
+    result.warnings.push_back(fmt::format(
+        "{}: '{}' stays one block: {}", section.pointer(), name,
+        pieces == 1 ? "nothing cuts its domain from side to side"
+                    : fmt::format("lines cut its domain into {}, of which those below the smallest area, and "
+                                  "slivers, joined their neighbours",
+                                  pieces)));
   }
 
   void warn_of_loose_ends(const Section& section, const std::vector<LooseEnd>& ends) {
@@ -211,8 +218,8 @@ class Expander {
     }
   }
 
-  std::vector<Block> cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
-                         double smallest_share) {
+  CutDomain cut(Section& section, const Shape& domain, Joints& joints, double smallest_area,
+                double smallest_share) {
     const Box box = box_around(domain.loops[0]);
     const double blocks = estimate(joints, box);
     if (blocks > most_blocks_) {
@@ -241,7 +248,7 @@ class Expander {
             "no block is left: what there is lies in gaps, or is below the smallest area and has no "
             "neighbour to join");
       }
-      return std::move(made.blocks);
+      return made;
     } catch (const std::runtime_error& failure) {
       mistakes_.add(section.pointer(), fmt::format("the domain could not be cut: {}", failure.what()));
       return {};

@@ -175,7 +175,7 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
   REQUIRE(whole.warnings.size() == 2);
   CHECK_THAT(whole.warnings[0],
              Contains("1 end of drawn lines within a block") && Contains("at (0.9, 0.5), is 0.1 m short of"));
-  CHECK_THAT(whole.warnings[1], Contains("'b' stays one block"));
+  CHECK_THAT(whole.warnings[1], Contains("'b' stays one block: nothing cuts its domain"));
   CHECK(sample::read(generator_scene(grid)).warnings.empty());
   // Of the second line the upper end is just short of the first; what meets a line or the boundary does not
   // miss it.
@@ -203,4 +203,14 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
   } catch (const SceneError& error) {
     CHECK(error.warnings.size() == 2);
   }
+}
+
+TEST_CASE("blocks that joined until one was left are told of", "[blocks]") {
+  const Scene one =
+      sample::read(generator_scene(R"("joint_sets": [{"dip": 0, "spacing": 0.3}], "smallest_area": 0.6)"));
+  CHECK(one.bodies.size() == 1);
+  REQUIRE(one.warnings.size() == 1);
+  CHECK_THAT(
+      one.warnings[0],
+      Contains("'b' stays one block: lines cut its domain into 4, of which those below the smallest area"));
 }
