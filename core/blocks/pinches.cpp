@@ -1,7 +1,9 @@
 #include "blocks/pinches.hpp"
 
 #include "blocks/geos.hpp"
+#include "geometry/box.hpp"
 #include "geometry/polygon.hpp"
+#include "text/place.hpp"
 
 #include <fmt/format.h>
 
@@ -104,9 +106,9 @@ class Bridges {
       if (sector == stays) continue;
       if (sector->others.empty() || sector->angle > flattest) {
         throw std::runtime_error(fmt::format(
-            "a block meets itself at ({:.6g}, {:.6g}), where nothing can be cut off between its two "
-            "sides: move what ends there by a little",
-            point.x, point.y));
+            "a block meets itself at {}, where nothing can be cut off between its two sides: move what ends "
+            "there by a little",
+            place_text(point, box_around(blocks_[block].loops[0]).size())));
       }
       cut(block, *sector, point);
     }

@@ -4,6 +4,7 @@
 #include "scene/joints.hpp"
 #include "scene/loops.hpp"
 #include "scene/tables.hpp"
+#include "text/place.hpp"
 
 #include <fmt/format.h>
 
@@ -155,24 +156,24 @@ class Expander {
                                   pieces)));
   }
 
-  void warn_of_loose_ends(const Section& section, const std::vector<LooseEnd>& ends) {
+  void warn_of_loose_ends(const Section& section, const std::vector<LooseEnd>& ends, double size) {
     if (ends.empty()) return;
     const LooseEnd nearest = *std::min_element(
         ends.begin(), ends.end(), [](const LooseEnd& p, const LooseEnd& q) { return p.gap < q.gap; });
     result.warnings.push_back(
         fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing "
-                    "on; the nearest, at ({:.6g}, {:.6g}), is {:.3g} m short of a line or the boundary",
-                    section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", nearest.at.x, nearest.at.y,
+                    "on; the nearest, at {}, is {:.3g} m short of a line or the boundary",
+                    section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", place_text(nearest.at, size),
                     nearest.gap));
   }
 
-  void warn_of_bridges(const Section& section, const std::vector<Vec2>& points) {
+  void warn_of_bridges(const Section& section, const std::vector<Vec2>& points, double size) {
     if (points.empty()) return;
     result.warnings.push_back(fmt::format(
-        "{}: at {} point{}, the first ({:.6g}, {:.6g}), a block meets itself across a corner of "
+        "{}: at {} point{}, the first {}, a block meets itself across a corner of "
         "what it encloses: 1 % of that corner's shorter side is cut off there, and goes to the "
         "block around",
-        section.pointer(), points.size(), points.size() == 1 ? "" : "s", points[0].x, points[0].y));
+        section.pointer(), points.size(), points.size() == 1 ? "" : "s", place_text(points[0], size)));
   }
 
   /// Of units or an origin that do not fit.
@@ -203,11 +204,11 @@ class Expander {
     if (points.empty()) return;
     const Box drawing = box_around(points);
     result.warnings.push_back(fmt::format(
-        "{}: no line of {} meets the domain: it is drawn from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), the "
-        "domain "
-        "goes from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}); is it in metres, and are both from one origin?",
-        section.pointer_to("dxf"), joints.drawing, drawing.low.x, drawing.low.y, drawing.high.x,
-        drawing.high.y, domain.low.x, domain.low.y, domain.high.x, domain.high.y));
+        "{}: no line of {} meets the domain: it is drawn from {} to {}, the domain goes from {} to {}; is it "
+        "in metres, and are both from one origin?",
+        section.pointer_to("dxf"), joints.drawing, place_text(drawing.low, drawing.size()),
+        place_text(drawing.high, drawing.size()), place_text(domain.low, domain.size()),
+        place_text(domain.high, domain.size())));
   }
 
   void warn_of_names_of_one_line(const Section& section, const Joints& joints, const NamesOfOneLine& names) {
@@ -239,8 +240,8 @@ class Expander {
       order.split_seed = joints.split_seed;
       CutDomain made = cut_domain(order, geos);
       warn_of_drawing_elsewhere(section, joints, box);
-      warn_of_loose_ends(section, made.loose_ends);
-      warn_of_bridges(section, made.bridged);
+      warn_of_loose_ends(section, made.loose_ends, box.size());
+      warn_of_bridges(section, made.bridged, box.size());
       warn_of_names_of_one_line(section, joints, made.names_of_one_line);
       if (made.blocks.empty()) {
         mistakes_.add(

@@ -195,6 +195,13 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
     CHECK(scene.bodies.size() == (cuts ? 3 : 2));
     CHECK(scene.warnings.size() == (cuts ? 0 : 1));
   }
+  // Far from zero, too, a place is told in figures that find it.
+  const Scene far = sample::read(generator_scene(
+      R"("joints": [{"points": [[499990, 5000000.5], [500010, 5000000.5]]},
+                    {"points": [[500000.25, 4999990], [500000.25, 5000000.499]]}])",
+      "[[500000, 5000000], [500001, 5000000], [500001, 5000001], [500000, 5000001]]"));
+  REQUIRE(far.warnings.size() == 1);
+  CHECK_THAT(far.warnings[0], Contains("at (500000.25, 5000000.499), is 0.001 m short of"));
   // Beside a mistake, too, which may come from it.
   try {
     sample::read(
