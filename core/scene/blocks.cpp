@@ -83,8 +83,13 @@ Json body_of(const Block& block, const std::string& name, const std::vector<std:
 
 class Expander {
  public:
-  Expander(Json& bodies, const std::filesystem::path& folder, double most_blocks, Mistakes& mistakes)
-      : bodies_(bodies), folder_(folder), most_blocks_(most_blocks), mistakes_(mistakes) {}
+  Expander(Json& bodies, const Json& materials, const std::filesystem::path& folder, double most_blocks,
+           Mistakes& mistakes)
+      : bodies_(bodies),
+        materials_(materials),
+        folder_(folder),
+        most_blocks_(most_blocks),
+        mistakes_(mistakes) {}
 
   void take(const Json& written, const std::string& pointer) {
     const std::size_t mistakes_before = mistakes_.count();
@@ -94,6 +99,7 @@ class Expander {
     const bool own_name = given && is_own(section, name);
     const Shape domain = read_domain(section);
     Joints joints = read_joints(section, folder_);
+    check_surfaces(joints);
     const double smallest_area = section.value(table::of(table::blocks, "smallest_area"));
     const double smallest_share = section.value(table::of(table::blocks, "smallest_share"));
     for (const char* key : shared_keys) section.child(key);
@@ -128,6 +134,20 @@ class Expander {
     mistakes_.add(section.pointer_to("name"),
                   fmt::format("\"{}\" is the name of {} already: names must differ", name, known->second));
     return false;
+  }
+
+  /// Of joints, whose keys blocks do not have.
+  void check_surfaces(const Joints& joints) {
+    for (const NamingKey& key : joints.naming_keys) {
+      if (!materials_.contains(key.surface)) continue;
+      const std::string words =
+          fmt::format("\"{}\" is the name of a material: interfaces could not tell the two apart, rename one",
+                      key.surface);
+      if (key.drawing.empty())
+        mistakes_.add_at_key(key.pointer, words);
+      else
+        mistakes_.add(key.pointer, fmt::format("{}: layer {}", key.drawing, words));
+    }
   }
 
   /// Lines of one set lie beside each other, and how long they take to cut grows with their square.
@@ -257,6 +277,7 @@ class Expander {
   }
 
   Json& bodies_;
+  const Json& materials_;
   const std::filesystem::path& folder_;
   double most_blocks_;
   Mistakes& mistakes_;
@@ -296,7 +317,9 @@ Expansion expand_blocks(Json& scene, const std::filesystem::path& folder, double
   if (!scene.contains("bodies") && !generators.empty()) scene["bodies"] = Json::array();
   Json none = Json::array();
   Json& bodies = scene.contains("bodies") && scene["bodies"].is_array() ? scene["bodies"] : none;
-  Expander expander(bodies, folder, most_blocks, mistakes);
+  const auto found = scene.find("materials");
+  const Json materials = found != scene.end() && found->is_object() ? *found : Json::object();
+  Expander expander(bodies, materials, folder, most_blocks, mistakes);
   for (std::size_t i = 0; i < generators.size(); ++i) expander.take(generators[i], below("/blocks", i));
   return std::move(expander.result);
 }

@@ -57,7 +57,9 @@ void read_joint_set(Section& section, Joints& joints) {
   set.persistence = section.value(of(joint_set, "persistence"));
   set.gap = section.optional_value(of(joint_set, "gap")).value_or(0);
   set.seed = take_seed(section, of(joint_set, "seed"));
-  set.surface = joints.number_of(read_line_surface(section));
+  const std::string surface = read_line_surface(section);
+  joints.naming_keys.push_back({surface, section.pointer_to("surface"), {}});
+  set.surface = joints.number_of(surface);
   check_gap(section, set.persistence);
   section.finish();
   joints.sets.push_back(set);
@@ -124,8 +126,9 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
   joints.first_of_drawing = joints.cuts.size();
   std::set<std::string> layers;
   for (const DxfLine& line : drawing.lines) {
-    if (line.layer != "0" && layers.insert(line.layer).second)
-      check_name(line.layer, pointer, section.mistakes());
+    if (line.layer != "0" && layers.insert(line.layer).second &&
+        check_name(line.layer, pointer, section.mistakes()))
+      joints.naming_keys.push_back({line.layer, pointer, file});
     for (const Vec2 point : line.points) {
       if (std::max(std::abs(point.x), std::abs(point.y)) <= table::largest_coordinate) continue;
       section.mistakes().add(
@@ -182,11 +185,13 @@ Joints read_joints(Section& generator, const std::filesystem::path& folder) {
                  });
   std::vector<std::string> surfaces;
   const std::vector<Discontinuity> lines = read_polylines(generator, "joints", surfaces);
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    joints.naming_keys.push_back({surfaces[i], below(generator.pointer_to("joints"), i) + "/surface", {}});
     joints.cuts.push_back({lines[i].points, joints.number_of(surfaces[i]), true});
   if (const Json* written = generator.child("bricks")) {
     Section section(written, generator.pointer_to("bricks"), mistakes);
     read_bricks(section, joints);
+  }
   }
   if (const Json* written = generator.child("voronoi")) {
     Section section(written, generator.pointer_to("voronoi"), mistakes);

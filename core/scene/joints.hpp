@@ -11,6 +11,12 @@
 
 namespace talus {
 
+/// Where a scene names a surface of joints.
+struct NamingKey {
+  std::string surface, pointer;
+  std::string drawing;  ///< file of which it is a layer, if it is one
+};
+
 /// All that cuts a domain, as a scene gives it.
 struct Joints {
   std::vector<JointSet> sets;
@@ -22,6 +28,7 @@ struct Joints {
   double split_share = 0;  ///< of quadrilaterals that become triangles
   std::uint64_t split_seed = 0;
   std::vector<std::string> surfaces{""};  ///< names by number
+  std::vector<NamingKey> naming_keys;
   std::vector<std::string> warnings;
   std::map<std::string, std::string> files;  ///< Scene::files
 

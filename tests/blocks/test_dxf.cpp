@@ -147,6 +147,21 @@ TEST_CASE("what a drawing has besides lines raises a warning", "[blocks]") {
   CHECK_THAT(scene.warnings[0], Contains("joints.dxf: 1 of the kind TEXT passed over"));
 }
 
+TEST_CASE("a layer that is called like a material is told with its file", "[blocks]") {
+  const Scratch scratch;
+  std::string named = line;
+  named.replace(named.find("fault"), 5, "rock");
+  scratch.write("joints.dxf", drawing(named));
+  try {
+    read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
+    FAIL("was read");
+  } catch (const SceneError& error) {
+    REQUIRE(error.mistakes.size() == 1);
+    CHECK(error.mistakes[0].pointer == "/blocks/0/dxf");
+    CHECK_THAT(error.mistakes[0].message, Contains("joints.dxf: layer \"rock\" is the name of a material"));
+  }
+}
+
 TEST_CASE("a drawing that misses the domain raises a warning", "[blocks]") {
   const Scratch scratch;
   std::string far = line;
