@@ -2,6 +2,7 @@
 
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
+#include "text/plain_number.hpp"
 #include "text/printable.hpp"
 
 #include <fmt/format.h>
@@ -9,25 +10,50 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace talus {
 namespace {
 
 constexpr int closed_flag = 1;
-constexpr int outside_model_space = 8 | 16 | 64;  // polylines in space and meshes
-constexpr int frame_of_spline = 16;               // a vertex that controls a curve and is not on it
+constexpr int in_space = 8;  // a polyline of which each vertex has a height of its own
+constexpr int mesh = 16 | 64;
+constexpr int frame_of_spline = 16;  // a vertex that controls a curve and is not on it
+
+/// In the words of DXF for what ASCII has not, \U+00FC, as UTF-8; halves of pairs stay as they are written.
+std::string decoded(std::string_view name) {
+  constexpr std::string_view mark = "\\U+";
+  constexpr std::size_t digits = 4;
+  std::string text;
+  while (!name.empty()) {
+    const std::string_view code = name.starts_with(mark) ? name.substr(mark.size(), digits) : "";
+    unsigned number = 0;
+    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), number, 16);
+    const bool good = code.size() == digits && error == std::errc() && end == code.data() + digits;
+    if (!good || number < 0x20 || (number >= 0xD800 && number < 0xE000)) {
+      text += name.front();
+      name.remove_prefix(1);
+      continue;
+    }
+    if (number >= 0x800) text += static_cast<char>(0xE0 | number >> 12);
+    if (number >= 0x80) text += static_cast<char>((number >= 0x800 ? 0x80 : 0xC0) | (number >> 6 & 0x3F));
+    text += static_cast<char>(number >= 0x80 ? 0x80 | (number & 0x3F) : number);
+    name.remove_prefix(mark.size() + digits);
+  }
+  return text;
+}
 
 /// As UTF-8, which drawings are since 2007; bytes of older ones are taken for Latin-1.
 std::string text_of(std::string_view name) {
-  if (printable(name)) return std::string(name);
+  if (printable(name)) return decoded(name);
   std::string text;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80) text += static_cast<char>(0xC0 | byte >> 6);
     text += static_cast<char>(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
   }
-  return text;
+  return decoded(text);
 }
 
 /// A DXF is a list of groups: a line with a code that tells what the next line is.
@@ -83,11 +109,9 @@ class Parser {
   }
 
   double number() const {
-    double taken = 0;
-    const auto [end, error] = std::from_chars(value_.data(), value_.data() + value_.size(), taken);
-    if (error != std::errc() || end != value_.data() + value_.size() || !std::isfinite(taken))
-      fail(fmt::format("{} is no number", shown(value_)));
-    return taken;
+    const std::optional<double> taken = plain_number(value_);
+    if (!taken) fail(fmt::format("{} is no number", shown(value_)));
+    return *taken;
   }
 
   /// A sum of flags.
@@ -149,13 +173,16 @@ class Parser {
   void read_line() {
     begin_entity();
     Vec2 from, to;
+    double rise = 0;
     read_groups([&](int code) {
       if (code == 10) from.x = number();
       if (code == 20) from.y = number();
       if (code == 11) to.x = number();
       if (code == 21) to.y = number();
+      if (code == 30) rise -= number();
+      if (code == 31) rise += number();
     });
-    keep({from, to}, false, "LINE");
+    keep({from, to}, false, "LINE", rise == 0);
   }
 
   void read_light_polyline() {
@@ -170,7 +197,7 @@ class Parser {
       check_bulge();
       check_plane();
     });
-    keep(std::move(points), closed, "LWPOLYLINE");
+    keep(std::move(points), closed, "LWPOLYLINE", true);
   }
 
   void read_polyline() {
@@ -183,28 +210,35 @@ class Parser {
     });
     const std::string_view layer = layer_;
     const bool paper = paper_;
+    std::optional<double> height;
+    bool level = true;
     while (value_ == "VERTEX") {
       Vec2 point;
+      double z = 0;
       bool of_frame = false;
       read_groups([&](int code) {
         if (code == 10) point.x = number();
         if (code == 20) point.y = number();
+        if (code == 30) z = number();
         if (code == 70) of_frame = (flags() & frame_of_spline) != 0;
         check_bulge();
       });
-      if (!of_frame) points.push_back(point);
+      if (of_frame) continue;
+      points.push_back(point);
+      if (height && *height != z) level = false;
+      height = z;
     }
     if (value_ != "SEQEND") fail(fmt::format("{} stands where VERTEX or SEQEND should", shown(value_)));
     read_groups([](int) {});
     layer_ = layer;
     paper_ = paper;
-    const bool flat = (kind & outside_model_space) == 0;
-    flat ? keep(std::move(points), (kind & closed_flag) != 0, "POLYLINE") : pass_over("POLYLINE");
+    if ((kind & mesh) != 0 || ((kind & in_space) != 0 && !level)) return pass_over("POLYLINE");
+    keep(std::move(points), (kind & closed_flag) != 0, "POLYLINE", level);
   }
 
   void pass_over(const char* kind) { ++drawing_.passed_over[fmt::format("{} not of the plane", kind)]; }
 
-  void keep(std::vector<Vec2> points, bool closed, const char* kind) {
+  void keep(std::vector<Vec2> points, bool closed, const char* kind, bool level) {
     if (paper_) return pass_over(kind);
     if (closed && !points.empty()) points.push_back(points[0]);
     const auto same = [](Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; };
@@ -213,6 +247,7 @@ class Parser {
       ++drawing_.passed_over[fmt::format("{} without length", kind)];
       return;
     }
+    if (!level) ++drawing_.flattened[kind];
     drawing_.lines.push_back({text_of(layer_), std::move(points)});
   }
 

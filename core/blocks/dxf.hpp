@@ -20,11 +20,13 @@ struct DxfDrawing {
   std::vector<DxfLine> lines;
   int units = 0;                           ///< $INSUNITS of the header: 0 none, 6 metres
   std::map<std::string, int> passed_over;  ///< how often entities of other kinds stand in it
+  std::map<std::string, int> flattened;    ///< how often lines that are taken leave the plane
 };
 
 /// Reads LINE, POLYLINE and LWPOLYLINE entities of model space from a DXF file (text), in the order of the
-/// file. Throws InputError with file and line where it is no DXF, or a polyline has arcs or stands in a plane
-/// other than that of the drawing; std::system_error when it cannot be read.
+/// file; lines that are not level as seen from above. Throws InputError with file and line where it is no
+/// DXF, or a polyline has arcs or stands in a plane other than that of the drawing; std::system_error when it
+/// cannot be read.
 DxfDrawing read_dxf(const std::filesystem::path& file);
 DxfDrawing read_dxf_text(std::string_view text, const std::string& name);
 

@@ -140,6 +140,10 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
   }
   for (const auto& [kind, count] : drawing.passed_over)
     joints.warnings.push_back(fmt::format("{}: {} of the kind {} passed over", file, count, kind));
+  for (const auto& [kind, count] : drawing.flattened)
+    joints.warnings.push_back(fmt::format(
+        "{}: {} of the kind {} leave the plane of the drawing (z varies): taken as seen from above", file,
+        count, kind));
   for (const auto& [number, name] : foreign_units) {
     if (number == drawing.units)
       joints.warnings.push_back(
@@ -188,10 +192,10 @@ Joints read_joints(Section& generator, const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     joints.naming_keys.push_back({surfaces[i], below(generator.pointer_to("joints"), i) + "/surface", {}});
     joints.cuts.push_back({lines[i].points, joints.number_of(surfaces[i]), true});
+  }
   if (const Json* written = generator.child("bricks")) {
     Section section(written, generator.pointer_to("bricks"), mistakes);
     read_bricks(section, joints);
-  }
   }
   if (const Json* written = generator.child("voronoi")) {
     Section section(written, generator.pointer_to("voronoi"), mistakes);

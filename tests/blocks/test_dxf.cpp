@@ -103,6 +103,49 @@ TEST_CASE("drawings of other programs are read as they come", "[blocks]") {
         "fte");
 }
 
+TEST_CASE("numbers may have a sign, and layers letters that ASCII has not", "[blocks]") {
+  std::string text = line;
+  text.replace(text.find("1.0"), 3, "+1.0");
+  text.replace(text.find("fault"), 5, "Kl\\U+00FCfte \\U+03B1\\U+20AC \\U+D83D \\U+12");
+  const DxfDrawing read = read_dxf_text(drawing(text), "d.dxf");
+  REQUIRE(read.lines.size() == 1);
+  CHECK(read.lines[0].points[1].x == 1);
+  CHECK(read.lines[0].layer ==
+        "Kl\xC3\xBC"
+        "fte \xCE\xB1\xE2\x82\xAC \\U+D83D \\U+12");
+}
+
+TEST_CASE("lines in space are taken where they are level, and told where they are not", "[blocks]") {
+  const auto in_space = [](const char* flags, const char* z) {
+    return fmt::format(
+        "  0\nPOLYLINE\n 70\n{}\n  0\nVERTEX\n 10\n0\n 20\n0\n 30\n7\n  0\nVERTEX\n 10\n1\n 20\n0\n "
+        "30\n{}\n  0\nSEQEND\n",
+        flags, z);
+  };
+  const DxfDrawing level = read_dxf_text(drawing(in_space("8", "7") + in_space("9", "7")), "d.dxf");
+  REQUIRE(level.lines.size() == 2);
+  CHECK(level.lines[0].points[1].x == 1);
+  CHECK(level.lines[1].points.size() == 3);  // closed
+  CHECK(level.passed_over.empty());
+  CHECK(level.flattened.empty());
+  const DxfDrawing rising = read_dxf_text(
+      drawing(in_space("8", "7.5") + in_space("0", "7.5") + "  0\nLINE\n 10\n0\n 30\n1\n 11\n1\n 31\n2\n"),
+      "d.dxf");
+  CHECK(rising.lines.size() == 2);
+  CHECK(rising.passed_over.at("POLYLINE not of the plane") == 1);
+  CHECK(rising.flattened.at("POLYLINE") == 1);
+  CHECK(rising.flattened.at("LINE") == 1);
+  // A mesh is no line, however level.
+  CHECK(read_dxf_text(drawing(in_space("16", "7")), "d.dxf").lines.empty());
+  const Scratch scratch;
+  std::string dipping = line;
+  dipping.insert(dipping.find(" 11"), " 30\n3\n");
+  scratch.write("joints.dxf", drawing(dipping));
+  const Scene scene = read_in(scratch, generator_scene(R"("dxf": "joints.dxf")"));
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Contains("joints.dxf: 1 of the kind LINE") && Contains("seen from above"));
+}
+
 TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   CHECK_THAT(refusal("hello\n"), Contains("d.dxf:1: 'hello' stands where the code"));
   CHECK_THAT(refusal("  0\nEOF\n"), Contains("d.dxf:2: this is no DXF"));
