@@ -1,5 +1,6 @@
 #include "picture/scene_picture.hpp"
 
+#include "blocks/geos.hpp"
 #include "picture/palette.hpp"
 #include "picture/section.hpp"
 #include "scene/polygons.hpp"
@@ -53,18 +54,21 @@ Vec2 middle_of(const std::vector<Vec2>& points) {
 }
 
 /// Somewhere within a body, in its middle if that is within.
-Vec2 place_within(const std::vector<Vec2>& ring) {
+Vec2 place_within(const SceneBody& body) {
+  const std::vector<Vec2>& ring = body.outer.vertices;
+  Loops loops{ring};
+  for (const Loop& hole : body.holes) loops.push_back(hole.vertices);
   const Vec2 middle = middle_of(ring);
-  if (contains({ring}, middle, 0)) return middle;
+  if (contains(loops, middle, 0)) return middle;
   Vec2 best = middle;
   double largest = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 p = ring[i], q = ring[(i + 1) % ring.size()], r = ring[(i + 2) % ring.size()];
     const double area = std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
     const Vec2 at = middle_of({p, q, r});
-    if (area > largest && contains({ring}, at, 0)) best = at, largest = area;
+    if (area > largest && contains(loops, at, 0)) best = at, largest = area;
   }
-  return best;
+  return largest > 0 ? best : Geos().point_within(loops);
 }
 
 void draw_body(Picture& picture, std::size_t index) {
@@ -241,7 +245,7 @@ void draw_names(Picture& picture) {
     const Spot size = picture.size_of_body(i);
     if (letter * static_cast<double>(body.name.size()) > size.x || size.y < 12) continue;
     if ((many && !body.fixed) || is_monitor(body.name)) continue;
-    const Spot at = picture.view.at(place_within(body.outer.vertices));
+    const Spot at = picture.view.at(place_within(body));
     const double above = size.y < 48 ? -4 : 12;  // patches and marks stand in the middle of large ones
     picture.svg.text({at.x, at.y - above}, body.name, Svg::Anchor::middle, palette::ink, 11);
   }

@@ -15,6 +15,7 @@
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
+#include <cmath>
 #include <limits>
 #include <regex>
 #include <sstream>
@@ -177,6 +178,23 @@ TEST_CASE("The picture of a scene marks what holds, drives, moves and drains its
     return found;
   };
   CHECK(count("fill=\"none\"") >= 10);
+}
+
+TEST_CASE("The name of a body stands in it and not in its hole", "[picture]") {
+  WorkingScene text;
+  text.bodies = R"({"name": "frame", "material": "rock", "polygon": [[0, 0], [4, 0], [4, 4], [0, 4]],
+                    "holes": [[[1, 0.5], [3, 0.5], [3, 3.5], [1, 3.5]]]})" +
+                ("," + box("core", 1.5, 1, 2.5, 3, R"("fixed": true)"));
+  const std::string svg = scene_svg(Simulation(text.read(), {}));
+  check_xml(svg);
+  const auto x_of = [&](const std::string& name) {
+    std::smatch found;
+    REQUIRE(std::regex_search(svg, found, std::regex("<text x=\"([0-9.]+)\"[^>]*>" + name + "<")));
+    return std::stod(found[1]);
+  };
+  // Its middle is that of the core, 1.5 m from the middles of its sides; the picture of 4 m is 1000 wide at
+  // most.
+  CHECK(std::abs(x_of("frame") - x_of("core")) > 200);
 }
 
 TEST_CASE("Figures of a run are drawn from its files", "[picture]") {
