@@ -42,7 +42,8 @@ class MaterialBatches {
   /// The material of a batch if it takes elements from displacements to forces itself, or null.
   const Material* sweeping(std::uint32_t batch) const { return batches_[batch].sweeping; }
 
-  /// Whether all that is lost in a batch is work of viscous stresses: its material claims that, or a potential.
+  /// Whether all that is lost in a batch is work of viscous stresses: its material claims that, or a
+  /// potential.
   bool viscous(std::uint32_t batch) const { return batches_[batch].viscous; }
 
   /// Stress and energies of `count` elements of a batch from the deformation in the buffer. `keep`: for
