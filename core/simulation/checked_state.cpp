@@ -249,7 +249,7 @@ void Simulation::State::warn_of_settlement() {
   if (count == 0) return;
   summary.warnings.push_back(fmt::format(
       "while it settled {} moved by more than {} of {}, {}{} by {:.3g} m: displacements count from "
-      "there; was it drawn off what it rests on?",
+      "there; was it drawn off what it rests on, or does it fall?",
       count == 1 ? "a body" : fmt::format("{} bodies", count), far_to_settle,
       count == 1 ? "its width" : "their widths", count == 1 ? "" : "the most ", place(farthest), most));
 }
