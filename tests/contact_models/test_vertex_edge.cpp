@@ -283,6 +283,34 @@ TEST_CASE("A block on a body of many elements meets alpha L, wherever its corner
   CHECK(sunk == Approx(2000 * 10 / 1e8).epsilon(wide < 1 ? 0.05 : 0.01));
 }
 
+TEST_CASE("The force of a corner beside a node of a flat side does not flutter", "[vertex_edge]") {
+  // The apex stands 5 mm from a node of the lattice, so near that both sides there would bear it.
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.material = R"("density": 1000, "model": "linear_elastic", "young_modulus": 9e6, "poisson_ratio": 0.3)";
+  text.interface = R"("normal_stiffness": 5e6, "tangential_stiffness": 2e6, "friction_angle": 0,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies =
+      R"({"name": "apex", "material": "rock", "polygon": [[0.406, -0.56], [0.898, -0.56], [0.418, 0]],
+                    "fix": ["x", "y", "rotation"]}, )" +
+      box("slab", -0.473, 0.0005, 0.5893, 1.2096,
+          R"("cover": {"model": "hexagonal", "size": 0.3, "angle": 13}, "velocity": [0, -1])");
+  text.time = R"({"end": 0.01, "dt": 2e-5})";
+  text.output = R"({"history": 2e-5})";
+  Simulation simulation(text.read(), {});
+  double before = 0, largest = 0, largest_change = 0;
+  while (simulation.advance()) {
+    double force = 0;
+    for (const Contact& contact : simulation.contacts()) force += contact.normal_force.y;
+    largest_change = std::max(largest_change, std::abs(force - before));
+    largest = std::max(largest, std::abs(force));
+    before = force;
+  }
+  CHECK(largest > 100);
+  CHECK(largest_change < 0.1 * largest);
+  CHECK(residual_share(simulation.ledger()) < 1e-3);
+}
+
 TEST_CASE("Concave bodies stand on the corners where cuts end", "[vertex_edge]") {
   // Of equal walls the bisectors of inner corners end in outer ones.
   struct Shape {

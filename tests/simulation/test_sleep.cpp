@@ -267,3 +267,24 @@ TEST_CASE("a body that sleeps under a load stands still to whoever looks", "[sim
     }
   }
 }
+
+TEST_CASE("what falls asleep in the very step in which kinetic damping stops all wakes at rest",
+          "[simulation][sleep]") {
+  WorkingScene text;
+  text.material = R"("density": 1000, "model": "linear_elastic", "young_modulus": 1e7, "poisson_ratio": 0.3)";
+  text.bodies = box("a", 0, 0, 1, 1, R"("velocity": [0.0005, 0])") + ", " +
+                box("b", 0, 5, 1, 6, R"("velocity": [0.1, 0])");
+  // The kinetic energy of b peaks at 0.053 s, when a, slow from the start, is first looked at.
+  text.rest = R"("damping": "kinetic", "sleep": {"speed": 0.001, "acceleration": 1, "after": 0.05},
+      "loads": [{"body": "b", "point": [0.5, 5.5],
+                 "force": [{"scale": 1000, "time": [[0, 1], [0.0528, 1], [0.0529, -1], [1, -1]]}, 0]}],
+      "stages": [{"name": "wake", "from": 0.1, "set": {"/gravity": [0, -1e-9]}}],)";
+  text.time = R"({"end": 0.15, "dt": 1e-3})";
+  text.output = R"({"history": 1e-3})";
+  Simulation simulation(text.read(), {});
+  finish(simulation);
+  REQUIRE(simulation.summary().sleep);
+  REQUIRE(simulation.summary().sleep->woken > 0);
+  CHECK(std::abs(simulation.body_motion(0).velocity.x) < 1e-12);
+  CHECK(residual_share(simulation.ledger()) < 1e-12);
+}
