@@ -134,10 +134,11 @@ class CornerFinder {
     contact.slack = std::min(sought, flush * edge);
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;
-      // Behind a reflex corner a vertex is past the end of either face by its depth behind the other.
+      // Behind a reflex corner a vertex is past the end of either face by its depth behind the other, over
+      // the cut: as far as its edges reach, since a face lets go of it where it is no longer deep behind it.
       const bool ends_side = !other.is_strip() && other.is_cut(k) &&
                              (other.next(k) == contact.side || other.next(contact.side) == k);
-      if (other.depth(k, at) < -(ends_side ? flush * edge : contact.slack)) return;
+      if (other.depth(k, at) < -(ends_side ? edge : contact.slack)) return;
     }
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);

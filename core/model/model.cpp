@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -73,15 +74,18 @@ std::vector<Vec2> loaded_points(const Scene& scene, std::uint32_t body, Vec2 cen
 void check_fragments(const Model& model, const Scene& scene, std::uint32_t index) {
   const Body& body = model.bodies[index];
   if (!body.meets_itself || body.outline_meets || scene.without_interface.empty()) return;
-  std::set<std::uint32_t> fragments, outline;
+  std::map<std::uint32_t, std::set<std::uint32_t>> fragments_with;  // [surface] of the outline
   for (std::uint32_t piece = body.piece_begin; piece < model.piece_body.size(); ++piece) {
     const Strip& strip = model.strips[model.piece_strip[piece]];
-    fragments.insert(strip.fragment);
-    if (!model.sides[strip.side].is_cut_face) outline.insert(model.sides[strip.side].surface);
+    const BoundarySide& side = model.sides[strip.side];
+    if (!side.is_cut_face) fragments_with[side.surface].insert(strip.fragment);
   }
-  if (fragments.size() < 2) return;
   for (const auto& [a, b] : scene.without_interface) {
-    if (!outline.contains(a) || !outline.contains(b)) continue;
+    const std::set<std::uint32_t>&with_a = fragments_with[a], &with_b = fragments_with[b];
+    const auto meets_another = [&](std::uint32_t fragment) {
+      return with_b.size() > (with_b.contains(fragment) ? 1U : 0U);
+    };
+    if (std::none_of(with_a.begin(), with_a.end(), meets_another)) continue;
     const auto name = [&](std::uint32_t surface) {
       const SurfaceClass& one = scene.surfaces[surface];
       return one.surface.empty() ? one.material : one.surface;

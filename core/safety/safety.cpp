@@ -102,9 +102,8 @@ class Reduction {
     std::vector<std::string> names;
     for (const std::size_t body : bodies) names.push_back(scene_.bodies[body].name);
     warnings_.push_back(fmt::format(
-        "with its full strength the scene came to rest only where this had moved by a twentieth of its width "
-        "or "
-        "more: the factor is of what lies there then, that of the scene as it is drawn may be below 1: {}",
+        "with its full strength this moved by a twentieth of its width or more while the scene settled: the "
+        "factor is of what lies there then, that of the scene as it is drawn may be below 1: {}",
         listed(names)));
   }
 

@@ -142,8 +142,7 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
     joints.warnings.push_back(fmt::format("{}: {} of the kind {} passed over", file, count, kind));
   for (const auto& [kind, count] : drawing.flattened)
     joints.warnings.push_back(fmt::format(
-        "{}: {} of the kind {} leave the plane of the drawing (z varies): taken as seen from above", file,
-        count, kind));
+        "{}: {} of the kind {} not level (z varies): taken as seen from above", file, count, kind));
   for (const auto& [number, name] : foreign_units) {
     if (number == drawing.units)
       joints.warnings.push_back(

@@ -153,3 +153,19 @@ TEST_CASE("reports tell the moment of a contact with several sides", "[laws][out
     CHECK(contact_sum(simulation.contacts(), 1, centre).moment == Approx(-1000).epsilon(1e-3));
   }
 }
+
+TEST_CASE("reports count what a jump of the stiffness does", "[laws][output]") {
+  // A block is pushed by 1 mm into a floor of which one half is stiffer: shifted aside it would store less.
+  WorkingScene text;
+  text.law = "frictionless";
+  text.interface = R"("normal_stiffness": 1e8, "normal_damping": 0},
+                     {"between": ["soft", "rock"], "normal_stiffness": 1e7, "normal_damping": 0)";
+  text.bodies = R"({"name": "floor", "material": "rock", "fixed": true, "surfaces": {"soft": [3]},
+                    "polygon": [[-2, -1], [2, -1], [2, 0], [0, 0], [-2, 0]]}, )" +
+                box("block", -0.5, 0, 0.5, 1, R"("drive": {"x": 0, "y": -0.01, "rotation": 0})");
+  text.time = R"({"end": 0.1, "dt": 1e-4})";
+  const Simulation simulation = run_to_end(text);
+  const Vec2 force = contact_sum(simulation.contacts(), 1, {0, 0}).force;
+  CHECK(force.y == Approx(1e-3 * (1e8 + 1e7) / 2).epsilon(1e-6));
+  CHECK(force.x == Approx(-(1e8 - 1e7) * 1e-6 / 2).epsilon(1e-3));
+}

@@ -59,10 +59,10 @@ struct Balance {
   Point origin{0, 0};
   bool started = false;
 
-  void add(Point at, Point load) {
+  void add(Point at, Point load, double couple = 0) {
     if (!started) origin = at, started = true;
     force = force + load;
-    moment += cross(at - origin, load);
+    moment += cross(at - origin, load) + couple;
   }
   double moment_about(Point point) const { return moment - cross(point - origin, force); }
 };

@@ -42,21 +42,22 @@ class ClosingLoads {
   /// Loads of both bodies so that nothing is left over.
   void close(const LoadSink& sink) {
     for (std::uint32_t body = 0; body < 2; ++body) {
-      if (bears_[body].load > 0) put(sink, bears_[body], within_[body], 1);
+      if (bears_[body].load > 0) put(sink, body, within_[body], 1);
     }
-    const LoadedSide& last = bears_[bears_[0].load < bears_[1].load ? 1 : 0];
-    if (last.load > 0) put(sink, last, all_, -1);  // rounding
+    const std::uint32_t last = bears_[0].load < bears_[1].load ? 1 : 0;
+    if (bears_[last].load > 0) put(sink, last, all_, -1);  // rounding
   }
 
  private:
-  void put(const LoadSink& sink, const LoadedSide& at, const Balance& what, double sign) {
+  void put(const LoadSink& sink, std::uint32_t body, const Balance& what, double sign) {
+    const LoadedSide& at = bears_[body];
     const double lever = std::clamp(at.piece.lever(at.side, at.foot), 0.0, 1.0);
     const Point point = at.piece.point_at(at.side, lever);
-    const double moment = what.moment_about(point);
-    sink.on_side(at.piece, at.side, lever, sign * what.force);
-    sink.couple(at.piece, at.side, sign * moment);
-    all_.add(point, sign * what.force);
-    all_.moment += sign * moment;
+    const Point force = sign * what.force;
+    const double moment = sign * what.moment_about(point);
+    sink.on_side(at.piece, at.side, lever, force);
+    sink.couple(at.piece, at.side, moment);
+    all_.add(point, force, moment);
   }
 
   Balance all_, within_[2];

@@ -93,7 +93,14 @@ class DistributedContact {
         evaluate_contact(law, batch, loads, sink, pair, g, report);
       }
     }
-    normal_.finish(sink);
+    const Balance beside = normal_.finish(sink);
+    if (pair.slot_capacity > 0 && loads.reports != nullptr) add_to(loads.reports[pair.slot_start], beside);
+  }
+
+  static void add_to(ContactReport& report, const Balance& beside) {
+    report.px += beside.force.x;
+    report.py += beside.force.y;
+    report.moment += beside.moment_about({report.x, report.y});
   }
 
   /// Of what a cluster presses, that of one group, with its dashpots and friction.

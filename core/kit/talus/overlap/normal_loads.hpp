@@ -25,6 +25,8 @@ class NormalLoads {
     on_b.assign(overlaps.size(), {0, 0});
     among_strips_ = overlaps[0].piece[0].is_strip() || overlaps[0].piece[1].is_strip();
     closing_.clear();
+    beside_ = {};
+    total_load_ = largest_side_ = 0;
   }
 
   /// Loads both bodies, each as master as far as its role says.
@@ -38,10 +40,14 @@ class NormalLoads {
     }
   }
 
-  /// After the last cluster. A strip ends at division lines of its own, where its neighbour takes over: only
-  /// all strips together are in balance.
-  void finish(const LoadSink& sink) {
+  /// After the last cluster: a strip ends at division lines of its own, where its neighbour takes over, so
+  /// that only all strips together are in balance. Returns what jumps of the pressure put on body b beside
+  /// the loads of cells; nothing where that is rounding.
+  Balance finish(const LoadSink& sink) {
     if (among_strips_) closing_.close(sink);
+    const double rounding = 1e-9 * total_load_;
+    const bool some = length(beside_.force) > rounding || std::abs(beside_.moment) > rounding * largest_side_;
+    return some ? beside_ : Balance{};
   }
 
  private:
@@ -89,9 +95,15 @@ class NormalLoads {
         }
         for (InnerSegment& inner : inner_segments_) {
           find_slave_loads(law, parameters, share, inner.segment);
-          for (int end = 0; end < 2; ++end)
-            closing_.add_within(inner.body, inner.segment.at[end], inner.segment.load[end] * inner.inward);
+          for (int end = 0; end < 2; ++end) {
+            const Point at = inner.segment.at[end], force = inner.segment.load[end] * inner.inward;
+            closing_.add_within(inner.body, at, force);
+            // Cells count what their master bears: what it bears elsewhere presses on the other body, too.
+            if (inner.body == master_body) beside_.add(at, (master_body == 1 ? 1.0 : -1.0) * force);
+          }
         }
+        total_load_ += load;
+        largest_side_ = std::max(largest_side_, master.length(side));
         closing_.may_bear(master_body, {master, side, foot, load});
         closing_.may_bear(1 - master_body, {slave, any_real_side(overlap, slave), foot, load});
         // What a dashpot is measured by: the mean slope of the pressure.
@@ -149,6 +161,8 @@ class NormalLoads {
   CellDivider divider_;
   std::vector<InnerSegment> inner_segments_;  ///< of the cell at hand
   ClosingLoads closing_;
+  Balance beside_;
+  double total_load_ = 0, largest_side_ = 0;  ///< N/m and m, to tell beside_ from rounding
   bool among_strips_ = false;
 };
 
