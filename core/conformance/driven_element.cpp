@@ -50,10 +50,12 @@ Response DrivenElement::to(const Tensor& f, double dt) {
   batch.count = 1;
   output.energy = &response.energy;
   output.dissipated = &response.dissipated;
+  output.viscous = &response.viscous;
   output.state = next.data();
   law_->evaluate(batch, output);
   for (std::size_t k = 0; k < 4; ++k) work_ += (stress_[k] + response.stress[k]) / 2 * (f[k] - f_[k]);
   dissipated_ += response.dissipated;
+  viscous_ += response.viscous;
   state_ = next;
   f_ = f;
   stress_ = response.stress;

@@ -22,7 +22,7 @@ Tensor cauchy(const Tensor& p, const Tensor& f);
 
 struct Response {
   Tensor stress;  ///< Pa, P
-  double energy, dissipated;
+  double energy, dissipated, viscous;
 };
 
 /// One element that is led along a path of deformation gradients as the host does it.
@@ -39,12 +39,13 @@ class DrivenElement {
   const std::vector<double>& state() const { return state_; }
   double work() const { return work_; }  ///< J/m³, ½ (P_{n-1} + P_n) : (F_n − F_{n-1}) summed up
   double dissipated() const { return dissipated_; }
+  double viscous() const { return viscous_; }  ///< J/m³, of it
 
  private:
   const Material* law_;
   Tensor f_{1, 0, 0, 1}, stress_{0, 0, 0, 0};
   std::vector<double> state_;
-  double work_ = 0, dissipated_ = 0;
+  double work_ = 0, dissipated_ = 0, viscous_ = 0;
 };
 
 /// A walk about the identity: strains of up to `strain`, under a rotation by `spin` per step.

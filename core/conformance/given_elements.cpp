@@ -47,12 +47,13 @@ bool GivenElements::differs_from(const GivenElements& other) const {
 TakenResponse::TakenResponse(const GivenElements& elements, unsigned char value)
     : energy(elements.count, value),
       dissipated(elements.count, value),
+      viscous(elements.count, value),
       state(std::size_t{elements.count} * elements.doubles_per_element, value) {
   for (Guarded<double>& one : stress) {
     one.resize(elements.count, value);
     one.surround(value);
   }
-  energy.surround(value), dissipated.surround(value), state.surround(value);
+  for (Guarded<double>* one : {&energy, &dissipated, &viscous, &state}) one->surround(value);
 }
 
 MaterialResponse TakenResponse::view(const GivenElements& elements, std::uint32_t first) {
@@ -60,14 +61,15 @@ MaterialResponse TakenResponse::view(const GivenElements& elements, std::uint32_
   for (std::size_t k = 0; k < 4; ++k) response.stress[k] = stress[k].data() + first;
   response.energy = energy.data() + first;
   response.dissipated = dissipated.data() + first;
+  response.viscous = viscous.data() + first;
   response.state = state.data() + std::size_t{first} * elements.doubles_per_element;
   return response;
 }
 
 bool TakenResponse::surrounded_by(unsigned char value) const {
-  const bool within =
-      energy.surrounded_by(value) && dissipated.surrounded_by(value) && state.surrounded_by(value);
-  return within && std::ranges::all_of(stress, [&](const auto& one) { return one.surrounded_by(value); });
+  const auto within = [&](const Guarded<double>& one) { return one.surrounded_by(value); };
+  return std::ranges::all_of(stress, within) && within(energy) && within(dissipated) && within(viscous) &&
+         within(state);
 }
 
 }  // namespace talus::conformance

@@ -24,7 +24,7 @@ struct GivenElements {
 
 /// All that a material fills in.
 struct TakenResponse {
-  Guarded<double> stress[4], energy, dissipated, state;
+  Guarded<double> stress[4], energy, dissipated, viscous, state;
 
   TakenResponse(const GivenElements& elements, unsigned char value);
   MaterialResponse view(const GivenElements& elements, std::uint32_t first);

@@ -28,6 +28,7 @@ std::optional<std::string> difference_of_elements(const GivenElements& elements,
     for (std::size_t k = 0; k < 4; ++k) compare("stress", i, p.stress[k][i], q.stress[k][i]);
     compare("energy", i, p.energy[i], q.energy[i]);
     compare("dissipated", i, p.dissipated[i], q.dissipated[i]);
+    compare("viscous", i, p.viscous[i], q.viscous[i]);
     for (std::uint32_t k = 0; k < elements.doubles_per_element; ++k) {
       const std::size_t at = std::size_t{i} * elements.doubles_per_element + k;
       compare("state", i, p.state[at], q.state[at]);
@@ -66,7 +67,8 @@ void check_material_restore(const Subject& subject, Trial& trial) {
   for (std::size_t i = 100; i < 200; ++i) responses.push_back(element.to(path[i]));
   for (std::size_t i = 100; i < 200; ++i) {
     const Response again = copy.to(path[i]), &due = responses[i - 100];
-    trial.due(again.stress == due.stress && again.energy == due.energy && again.dissipated == due.dissipated,
+    const bool same_losses = again.dissipated == due.dissipated && again.viscous == due.viscous;
+    trial.due(again.stress == due.stress && again.energy == due.energy && same_losses,
               fmt::format("another response in step {}", i), "the same bits");
   }
   trial.due(copy.state() == element.state(), "another state at the end", "the same bits");
@@ -167,8 +169,9 @@ void check_material_degenerate(const Subject& subject, Trial& trial) {
   for (const Tensor& f : lively_path(0.3, 100)) {
     trial.feed(fmt::format("F = [{:.9g}, {:.9g}; {:.9g}, {:.9g}] at once", f[0], f[1], f[2], f[3]));
     const Response response = DrivenElement(*law).to(f);
-    trial.due(std::isfinite(size_of(response.stress) + response.energy + response.dissipated),
-              "a response that is no finite number", "finite stress and energy");
+    trial.due(
+        std::isfinite(size_of(response.stress) + response.energy + response.dissipated + response.viscous),
+        "a response that is no finite number", "finite stress and energy");
   }
 }
 
@@ -203,7 +206,8 @@ std::span<const Check> material_checks() {
       {"parameters", "declared defaults make a material; other values make one or are refused in words",
        check_parameters},
       {"power", "stress power is energy stored or dissipated; nothing is dissipated below zero", check_power},
-      {"losses", "slow motion dissipates nothing", check_viscous_loss},
+      {"losses", "work of viscous stress is a part of what is dissipated, and nothing in slow motion",
+       check_viscous_loss},
       {"objectivity", "rotation makes no stress and turns what there is; no moment", check_objectivity},
       {"potential", "P = ∂W/∂F", check_stress_potential},
       {"tangent", "stiffest_tangent() bounds the speed of waves, and is of its order", check_tangent},

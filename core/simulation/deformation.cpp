@@ -166,9 +166,7 @@ Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {
   Energy total;
   for (std::size_t s = 0; s < model.partition.subdomains.size(); ++s) {
     const SweepSums& sums = sums_[s];
-    const std::uint32_t element = model.first_element(model.bodies[subdomain_body_[s]]);
-    const bool viscous = materials_.viscous(materials_.batch_of(element));
-    total = sum_of(total, {sums.stored, sums.dissipated, viscous ? sums.dissipated : 0, sums.inside_out});
+    total = sum_of(total, {sums.stored, sums.dissipated, sums.viscous, sums.inside_out});
   }
   return total;
 }
@@ -199,13 +197,13 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     sum.stored += area * buffer.energy[i];
     if (!energies_.empty()) energies_[blocks.element + i] = area * buffer.energy[i];
     sum.dissipated += area * buffer.dissipated[i];
+    sum.viscous += area * buffer.viscous[i];
     Matrix2& moment = motion.forces[model.element_body[blocks.element + i]].moment;
     moment.xx -= area * buffer.stress[0][i];
     moment.xy -= area * buffer.stress[1][i];
     moment.yx -= area * buffer.stress[2][i];
     moment.yy -= area * buffer.stress[3][i];
   }
-  if (materials_.viscous(blocks.batch)) sum.viscous = sum.dissipated;
   return sum;
 }
 

@@ -34,8 +34,9 @@ void refuse_unsound(const Material& material, const RegisteredComponent& compone
 /// What a material must write, in audit builds.
 void poison([[maybe_unused]] ElementBuffer& buffer, [[maybe_unused]] std::uint32_t count) {
 #ifdef TALUS_AUDIT
-  for (auto& component : buffer.stress)
-    std::fill(component, component + count, std::numeric_limits<double>::quiet_NaN());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (auto& component : buffer.stress) std::fill(component, component + count, nan);
+  for (double* one : {buffer.energy, buffer.dissipated, buffer.viscous}) std::fill(one, one + count, nan);
 #endif
 }
 
@@ -72,10 +73,8 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
     remembers = remembers || states > 0 || needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
-    const bool viscous =
-        (choice.component->component->traits & (trait::has_potential | trait::viscous_loss)) != 0;
-    Batch& batch = batches_.emplace_back(Batch{
-        std::move(material), begin, end, needs_previous, viscous, sweeping, std::vector<double>(states), {}});
+    Batch& batch = batches_.emplace_back(
+        Batch{std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states), {}});
     for (int k = 0; k < 4 && needs_previous; ++k)
       batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
   }
@@ -108,6 +107,7 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   input.count = count;
   output.energy = buffer.energy;
   output.dissipated = buffer.dissipated;
+  output.viscous = buffer.viscous;
   output.state = buffer.state.data();
   batch.material->evaluate(input, output);
   std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
@@ -140,6 +140,7 @@ void MaterialBatches::cauchy(std::uint32_t element, std::span<const Matrix2> gra
   input.count = static_cast<std::uint32_t>(gradients.size());
   output.energy = buffer.energy;
   output.dissipated = buffer.dissipated;
+  output.viscous = buffer.viscous;
   batches_[batch_of(element)].material->evaluate(input, output);
   for (std::uint32_t i = 0; i < gradients.size(); ++i) stress[i] = cauchy_of(buffer, i);
 }

@@ -17,9 +17,9 @@ namespace talus {
 struct ElementBuffer {
   static constexpr std::uint32_t most = 256;  ///< elements
 
-  double deformation[4][most], stress[4][most];  ///< xx, xy, yx, yy; F, and P in Pa
-  double energy[most], dissipated[most];         ///< J/m³
-  std::vector<double> state;                     ///< of t_n, [element * doubles_per_element]
+  double deformation[4][most], stress[4][most];          ///< xx, xy, yx, yy; F, and P in Pa
+  double energy[most], dissipated[most], viscous[most];  ///< J/m³
+  std::vector<double> state;                             ///< of t_n, [element * doubles_per_element]
 
   /// Whether det F is not above 0, or no number, in any of the first `count` elements.
   bool any_inside_out(std::uint32_t count) const;
@@ -42,10 +42,6 @@ class MaterialBatches {
   /// The material of a batch if it takes elements from displacements to forces itself, or null.
   const Material* sweeping(std::uint32_t batch) const { return batches_[batch].sweeping; }
 
-  /// Whether all that is lost in a batch is work of viscous stresses: its material claims that, or a
-  /// potential.
-  bool viscous(std::uint32_t batch) const { return batches_[batch].viscous; }
-
   /// Stress and energies of `count` elements of a batch from the deformation in the buffer. `keep`: for
   /// output. Different elements may be evaluated at once, each with a buffer of its own.
   void evaluate(std::uint32_t batch, std::uint32_t element, std::uint32_t count, double dt, bool keep,
@@ -67,7 +63,7 @@ class MaterialBatches {
   struct Batch {
     Made<Material> material;
     std::uint32_t begin, end;  ///< elements
-    bool needs_previous, viscous;
+    bool needs_previous;
     const Material* sweeping;
     std::vector<double> state;
     std::vector<double> deformation[4];  ///< of t_n, if needs_previous

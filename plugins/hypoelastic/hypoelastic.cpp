@@ -53,7 +53,7 @@ class Hypoelastic final : public Material {
       out.stress[2][i] = p.yx;
       out.stress[3][i] = p.yy;
       out.energy[i] = work;
-      out.dissipated[i] = determinant(now) * contraction(viscous, step.strain);
+      out.dissipated[i] = out.viscous[i] = determinant(now) * contraction(viscous, step.strain);
       double* state = out.state + std::size_t{4} * i;
       state[0] = stress.xx;
       state[1] = stress.yy;
@@ -79,7 +79,7 @@ constexpr Component components[] = {
     material<Hypoelastic>("hypoelastic",
                           "Isotropic elasticity in rate form (Eqs. 2, 7), stress carried along by Hughes and "
                           "Winget's midpoint step.",
-                          parameters, trait::viscous_loss)};
+                          parameters)};
 
 }  // namespace
 

@@ -133,7 +133,8 @@ class LinearElastic final : public Material {
                  *gyx = batch.previous_deformation[2], *gyy = batch.previous_deformation[3];
     double *pxx = response.stress[0], *pxy = response.stress[1], *pyx = response.stress[2],
            *pyy = response.stress[3];
-    double* __restrict energy = response.energy, * __restrict dissipated = response.dissipated;
+    double* __restrict energy = response.energy, * __restrict dissipated = response.dissipated,
+           * __restrict viscous_loss = response.viscous;
     const PlaneModuli moduli = moduli_;
     const double viscosity = damped ? damping_time_ / batch.dt : 0;
     const std::uint32_t count = batch.count;
@@ -142,14 +143,14 @@ class LinearElastic final : public Material {
       const PolarStrain polar = polar_strain({fxx[i], fxy[i], fyx[i], fyy[i]});
       PlaneTensor stress = moduli * polar.strain;
       energy[i] = contraction(stress, polar.strain) / 2;
-      dissipated[i] = 0;
+      dissipated[i] = viscous_loss[i] = 0;
       double couple = 0;
       if (damped) {
         const PlaneTensor change = polar.strain - polar_strain({gxx[i], gxy[i], gyx[i], gyy[i]}).strain;
         const PlaneTensor viscous = viscosity * (moduli * change);
         stress = stress + viscous;
         couple = balancing_couple(viscous, polar);
-        dissipated[i] = contraction(viscous, change);
+        dissipated[i] = viscous_loss[i] = contraction(viscous, change);
       }
       const double c = polar.rotation.cosine, s = polar.rotation.sine;
       const double xy = stress.xy - couple, yx = stress.xy + couple;
@@ -173,7 +174,7 @@ class LinearElastic final : public Material {
 
 constexpr Component components[] = {material<LinearElastic>(
     "linear_elastic", "Isotropic linear elasticity, corotational: exact under any rotation.", parameters,
-    trait::has_potential | trait::viscous_loss)};
+    trait::has_potential)};
 
 }  // namespace
 

@@ -134,7 +134,8 @@ class MohrCoulomb final : public Material {
       response.stress[2][i] = p.yx;
       response.stress[3][i] = p.yy;
       response.energy[i] = next.energy;
-      response.dissipated[i] = lost + volume * contraction(viscous, step.strain);
+      response.viscous[i] = volume * contraction(viscous, step.strain);
+      response.dissipated[i] = lost + response.viscous[i];
       next.write(response.state + std::size_t{State::size} * i);
     }
   }

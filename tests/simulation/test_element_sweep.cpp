@@ -64,11 +64,11 @@ struct PlainResponse {
 PlainResponse plain_response(const Material& material, const Matrix2& h) {
   PlainResponse r{{1 + h.xx, h.xy, h.yx, 1 + h.yy}, {}, 0};
   const double before[4] = {1, 0, 0, 1};
-  double dissipated = 0;
+  double dissipated = 0, viscous = 0;
   std::vector<double> state(material.doubles_per_element()), next(state);
   MaterialBatch batch{
       {r.f, r.f + 1, r.f + 2, r.f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
-  material.evaluate(batch, {{r.p, r.p + 1, r.p + 2, r.p + 3}, &r.energy, &dissipated, next.data()});
+  material.evaluate(batch, {{r.p, r.p + 1, r.p + 2, r.p + 3}, &r.energy, &dissipated, &viscous, next.data()});
   return r;
 }
 

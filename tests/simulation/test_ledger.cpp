@@ -81,13 +81,16 @@ TEST_CASE("the balance of a viscous body under a sudden load closes to second or
   for (const auto& [model, cover] : {std::pair{"linear_elastic", block},
                                      {"linear_elastic", many},
                                      {"hypoelastic", block},
-                                     {"hypoelastic", many}}) {
+                                     {"hypoelastic", many},
+                                     {"mohr_coulomb", block},
+                                     {"mohr_coulomb", many}}) {
     INFO(model << ", " << cover);
     const auto largest_share = [model = model, cover = cover](double dt) {
       WorkingScene text;
       text.material = fmt::format(
           R"("density": 2300, "model": "{}", "young_modulus": 1e10, "poisson_ratio": 0.25, "damping_time": 1e-3)",
           model);
+      if (model == std::string("mohr_coulomb")) text.material += R"(, "friction_angle": 30, "cohesion": 1e7)";
       text.bodies = box("base", -2, -1, 2, 0, R"("fixed": true)") + "," +
                     box("a", 0, 0, 1, 1, R"("cover": )" + std::string(cover));
       text.gravity = "[0, -9.81]";

@@ -16,7 +16,7 @@ namespace talus {
 inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
 
 /// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
-inline constexpr std::uint32_t abi_number = 16;
+inline constexpr std::uint32_t abi_number = 17;
 
 inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
 
@@ -34,9 +34,6 @@ inline constexpr std::uint32_t pulls = 2;
 /// rocks meets a third of what they would be at its two ends. Those along it are spread, too, or act as one
 /// where the pressure has its resultant. Steps can be longer for it.
 inline constexpr std::uint32_t spread_springs = 4;
-/// Material: what it dissipates is the work of viscous stress alone, so that nothing is lost in slow motion;
-/// of one that has a potential that is so anyway. The ledger then books it to second order.
-inline constexpr std::uint32_t viscous_loss = 8;
 }  // namespace trait
 
 struct Component {

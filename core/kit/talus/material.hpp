@@ -19,6 +19,7 @@ struct MaterialResponse {
   double* stress[4];   ///< Pa, first Piola–Kirchhoff P (force per reference area), P_iJ as F_iJ
   double* energy;      ///< J/m³ of reference volume, recoverable
   double* dissipated;  ///< J/m³ since t_{n-1}
+  double* viscous;     ///< J/m³, of it work of viscous stress: half of that stress acts on the step ahead
   double* state;       ///< of t_n; separate from MaterialBatch::state
 };
 

@@ -36,8 +36,10 @@ class ElasticRock : public talus::Material {
       response.stress[1][i] = c * stress.xy - s * stress.yy;
       response.stress[2][i] = s * stress.xx + c * stress.xy;
       response.stress[3][i] = s * stress.xy + c * stress.yy;
-      response.energy[i] = energy(talus::contraction(stress, strain) / 2);
+      const double stored = talus::contraction(stress, strain) / 2;
+      response.energy[i] = energy(stored);
       response.dissipated[i] = 0;
+      response.viscous[i] = viscous(stored);
     }
   }
 
@@ -46,6 +48,7 @@ class ElasticRock : public talus::Material {
  protected:
   virtual std::uint32_t count_of(const talus::MaterialBatch& batch) const { return batch.count; }
   virtual double energy(double stored) const { return stored; }
+  virtual double viscous(double /*stored*/) const { return 0; }
   virtual talus::PlaneRotation rotation_of(const talus::TwoPointTensor& f) const {
     const double trace = f.xx + f.yy, skew = f.yx - f.xy, size = std::hypot(trace, skew);
     return {trace / size, skew / size};
