@@ -2,6 +2,7 @@
 
 #include "scene/tables.hpp"
 #include "simulation/time_step.hpp"
+#include "text/place.hpp"
 
 #include <fmt/format.h>
 
@@ -157,9 +158,8 @@ std::string diagnosis_text(const Scene& scene, const Diagnosis& diagnosis) {
     text += fmt::format("first bad step (->): t = {:.9g} s, {} steps after the good state", bad.time,
                         *diagnosis.first_bad);
     if (bad.penetration > 0) {
-      text += fmt::format("; worst contact {} and {} at ({:.6g}, {:.6g}) m, {:.3g} m deep",
-                          name_of(scene, bad.body_a), name_of(scene, bad.body_b),
-                          scene.origin.x + bad.place.x, scene.origin.y + bad.place.y, bad.penetration);
+      text += fmt::format("; worst contact {} and {} at {} m, {:.3g} m deep", name_of(scene, bad.body_a),
+                          name_of(scene, bad.body_b), place_from(scene.origin, bad.place), bad.penetration);
     }
     text += '\n';
   }

@@ -1,6 +1,7 @@
 #include "contact/thin_ground.hpp"
 #include "scene/tables.hpp"
 #include "simulation/state.hpp"
+#include "text/place.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +24,8 @@ constexpr double far_to_settle = 0.1;
 std::string Simulation::State::place(std::uint32_t body) const {
   const Vec2 centre = model.bodies[body].centre;
   const Vec2 u = motion.displacement(model.point(body, {}));
-  return fmt::format("'{}' at ({:.6g}, {:.6g}) m", scene.bodies[body].name, scene.origin.x + centre.x + u.x,
-                     scene.origin.y + centre.y + u.y);
+  return fmt::format("'{}' at {} m", scene.bodies[body].name,
+                     place_from(scene.origin, {centre.x + u.x, centre.y + u.y}));
 }
 
 /// " of" the first body with a velocity that is no number, and where it is, or was drawn if that is none
@@ -44,9 +45,8 @@ std::string Simulation::State::without_number() const {
     if (moves) continue;
     if (covered ? all(motion.patch_displacement, body) : number(at.u) && rows(at.h))
       return " of " + place(body);
-    const Vec2 drawn = model.bodies[body].centre;
-    return fmt::format(" of '{}', drawn at ({:.6g}, {:.6g}) m,", scene.bodies[body].name,
-                       scene.origin.x + drawn.x, scene.origin.y + drawn.y);
+    return fmt::format(" of '{}', drawn at {} m,", scene.bodies[body].name,
+                       place_from(scene.origin, model.bodies[body].centre));
   }
   return {};
 }
@@ -265,10 +265,9 @@ void Simulation::State::warn_of_thin_ground() {
   const std::string by = found->other == found->body ? "another part of itself"
                                                      : fmt::format("'{}'", scene.bodies[found->other].name);
   summary.warnings.push_back(fmt::format(
-      "'{}' {} by {} at ({:.6g}, {:.6g}) m, t = {:.6g} s: it is thin there, and its surface pushes to a "
+      "'{}' {} by {} at {} m, t = {:.6g} s: it is thin there, and its surface pushes to a "
       "depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin part a body of its own",
-      scene.bodies[found->body].name, met, by, scene.origin.x + found->place.x,
-      scene.origin.y + found->place.y, time, found->depth));
+      scene.bodies[found->body].name, met, by, place_from(scene.origin, found->place), time, found->depth));
 }
 
 }  // namespace talus
