@@ -20,6 +20,7 @@ struct CornerContact {
   double tributary;           ///< m, length of boundary whose load the vertex carries
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
   double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1
+  bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
 };
 
 /// Whether an edge is no more than a corner cut off, or rounding, between two others.
@@ -70,7 +71,7 @@ class CornerFinder {
                                                                                   : std::nullopt;
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
-        stand(own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1}, found);
+        stand(own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1, false}, found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -107,7 +108,7 @@ class CornerFinder {
                                            BondReach bond_reach, CornerContact contact,
                                            std::vector<CornerContact>& found) {
     const std::uint32_t v = contact.vertex;
-    const Point at = own.at(v), outward = vertex.outward();
+    const Point at = own.at(v), outward = outward_of(own, vertex, v);
     // A strip knows one side of its corner. At right angles to what it stands on, rounding would have it
     // stand on the far side of the other body instead.
     const double looks_away = own.is_strip() ? 0.1 : 0;
@@ -138,7 +139,10 @@ class CornerFinder {
       // the cut: as far as its edges reach, since a face lets go of it where it is no longer deep behind it.
       const bool ends_side = !other.is_strip() && other.is_cut(k) &&
                              (other.next(k) == contact.side || other.next(contact.side) == k);
-      if (other.depth(k, at) < -(ends_side ? edge : contact.slack)) return;
+      const double past = -other.depth(k, at);
+      if (!(past > contact.slack)) continue;
+      if (!ends_side || past > edge || !(contact.depth > 0)) return;
+      contact.past_cut = true;
     }
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);
@@ -146,6 +150,15 @@ class CornerFinder {
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
+  }
+
+  /// Where the body points at a vertex. A short edge beside it says nothing of that.
+  static Point outward_of(const Piece& own, const Vertex& vertex, std::uint32_t v) {
+    if (own.is_strip() || vertex.divided) return vertex.outward();
+    const std::uint32_t before = own.previous(v);
+    if (is_short(own, before)) return own.tangent(own.previous(before)) - vertex.after;
+    if (is_short(own, v)) return vertex.before - own.tangent(own.next(v));
+    return vertex.outward();
   }
 
   /// Of the pieces that share a vertex the one with the edge that lies flatter on a side has the contact.

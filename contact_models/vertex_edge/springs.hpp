@@ -5,7 +5,7 @@
 
 namespace talus::vertex_edge {
 
-/// What the host keeps for each vertex on an edge: seven doubles.
+/// What the host keeps for each vertex on an edge: eight doubles.
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
@@ -14,9 +14,10 @@ struct SpringHistory {
   double applied;  ///< N/m, tangential force as counted, without damping
   double pulled;   ///< J/m, what its bond holds across a gap, as counted: lost when it breaks
   double side;     ///< number of the side that it stands on
+  double viscous;  ///< N/m, what its tangential dashpot adds to `applied`
 };
 
-inline constexpr unsigned spring_doubles = 7;
+inline constexpr unsigned spring_doubles = 8;
 
 /// Springs and strength of one vertex contact.
 struct SpringParameters {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -116,13 +117,13 @@ class VertexEdge final : public ContactModel {
     old.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
-      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6]});
+      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7]});
     }
   }
 
   static void write(const SpringHistory& history, double* to) {
     to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
-    to[4] = history.applied, to[5] = history.pulled, to[6] = history.side;
+    to[4] = history.applied, to[5] = history.pulled, to[6] = history.side, to[7] = history.viscous;
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
@@ -157,6 +158,9 @@ class VertexEdge final : public ContactModel {
   /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep; in a
   /// reflex corner on both.
   static void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
+    std::erase_if(found, [&](const CornerContact& contact) {
+      return contact.past_cut && !stands_past_cut(pieces, contact, found);
+    });
     std::size_t kept = 0;
     for (const CornerContact& contact : found) {
       const auto same = [&](const CornerContact& other) {
@@ -170,6 +174,26 @@ class VertexEdge final : public ContactModel {
       }
     }
     found.resize(kept);
+  }
+
+  /// Past a cut a vertex stands in the reflex corner where that begins, and nowhere else: on its other face,
+  /// too, and within the body.
+  static bool stands_past_cut(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
+                              const std::vector<CornerContact>& found) {
+    const std::uint32_t met = 1 - contact.vertex_body;
+    const Point at = pieces[contact.entry].piece[contact.vertex_body].at(contact.vertex);
+    const auto holds = [&](const PiecePairGeometry& pair) {
+      const Piece& piece = pair.piece[met];
+      for (std::uint32_t k = 0; k < piece.size(); ++k) {
+        if (piece.depth(k, at) < -contact.slack) return false;
+      }
+      return true;
+    };
+    return std::ranges::any_of(found,
+                               [&](const CornerContact& other) {
+                                 return other.key == contact.key && in_reflex_corner(pieces, contact, other);
+                               }) &&
+           std::ranges::any_of(pieces, holds);
   }
 
   /// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
@@ -259,7 +283,7 @@ class VertexEdge final : public ContactModel {
       own.side = side;
       return own;
     }
-    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0, side};
+    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0, side, 0};
     if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
     for (const CornerContact& other : work.found) {
       if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
@@ -303,6 +327,8 @@ class VertexEdge final : public ContactModel {
              : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth + spring.tensile));
 
     const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
+    // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
+    const double old_viscous = std::exchange(history.viscous, 0);
     const SpringForce force =
         spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
     if (force.breaks) history.intact = 0;
@@ -310,7 +336,7 @@ class VertexEdge final : public ContactModel {
       // The force of the step before has worked through half of this one.
       const double pull =
           old_pulled > 0 ? contact.share * spring.normal * (contact.depth - closing * batch.dt) : 0;
-      report.slip_loss += (pull * closing * batch.dt - old_applied * slip) / 2;
+      report.slip_loss += (pull * closing * batch.dt - (old_applied + old_viscous) * slip) / 2;
       return false;
     }
 
@@ -325,6 +351,7 @@ class VertexEdge final : public ContactModel {
     report.stored += stored_normal + stored_tangential;
     report.slip_loss += -old_stored - old_pulled - (old_applied + history.applied) * slip / 2 -
                         (stored_tangential - old_stored);
+    if (force.slips) report.slip_loss -= old_viscous * slip / 2;
     report.penetration = std::max(report.penetration, contact.depth);
 
     report.damping_power += contact.share * viscous * closing * batch.dt;
@@ -338,6 +365,7 @@ class VertexEdge final : public ContactModel {
       tangential = std::clamp(tangential - shear_dashpot * sliding, -std::max(limit, std::abs(tangential)),
                               std::max(limit, std::abs(tangential)));
       const double viscous_shear = tangential - force.tangential;
+      history.viscous = contact.share * viscous_shear;
       report.damping_power += contact.share * std::max(0.0, -viscous_shear * slip);
       report.damping_force += static_cast<float>(contact.share * std::abs(viscous_shear));
     }
