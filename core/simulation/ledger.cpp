@@ -6,9 +6,9 @@
 namespace talus {
 
 void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-                        const AccelerationWork& work, bool stage_begins) {
+                        const AccelerationWork& work, bool stage_begins, bool step_changes) {
   EnergyLedger& l = ledger_;
-  const double before = stored() + lost();
+  const double before = stored() + lost(), missed = l.residual;
   l.kinetic = work.kinetic;
   l.strain = strain.stored;
   l.contact = contact.stored + loads.stored();
@@ -36,6 +36,12 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   work_ahead_ = work.external_work_ahead;
 
   l.residual = stored() + lost() - l.external_work - initial_;
+  if (step_changed_) {
+    initial_ += l.residual - missed;
+    l.residual = missed;
+  }
+  step_changed_ = stage_began_ && step_changes;
+  stage_began_ = stage_begins || (stage_began_ && !step_changes);
   l.throughput = std::max({l.throughput, initial_, stored() + lost(), std::abs(l.external_work)});
 }
 

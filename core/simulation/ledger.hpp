@@ -12,9 +12,11 @@ namespace talus {
 class LedgerKeeper {
  public:
   /// At t_n, once all parts of the step are known. Where a stage begins t_n is booked twice: what then
-  /// differs is the work of who changed the parameters, the loads and the supports.
+  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: the step
+  /// ahead is not as long as that behind. K_n is by ⅛ Δt² aᵀ M a less than ½ vᵀ M v, which is no matter while
+  /// steps are alike; where those from a stage to the next output are others, it is taken up once.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-            const AccelerationWork& work, bool stage_begins);
+            const AccelerationWork& work, bool stage_begins, bool step_changes);
 
   /// So much kinetic energy, J/m, was just taken, as by global damping.
   void lose_kinetic(double taken);
@@ -47,7 +49,7 @@ class LedgerKeeper {
   double initial_ = 0;  ///< J/m, kinetic and stored at t = 0
   double damping_ahead_ = 0, work_ahead_ = 0;
   double floor_ = 0;
-  bool started_ = false;
+  bool started_ = false, stage_began_ = false, step_changed_ = false;
 };
 
 }  // namespace talus

@@ -87,10 +87,10 @@ void Simulation::State::step(double next_end) {
     make_plan(plan.target);
   }
   forces();
+  if (!settling) remember_deepest();
   check_step();
   profile.leave();
   if (settling) return;
-  remember_deepest();
   // The corners of a body that spins differ in speed by its spin times its width or more.
   turned += dt_behind * speeds.relative / model.smallest_width;
   if (turned > 1) bring_rotation_up_to_date();
@@ -150,7 +150,8 @@ void Simulation::State::forces() {
                                            patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   check_materials(work.kinetic);
-  ledger.book(contact_totals, strain_energy, loads, work, stage_begins);
+  ledger.book(contact_totals, strain_energy, loads, work, stage_begins,
+              conditions.dt_behind != conditions.dt_ahead);
   Sleep::Taken taken{};
   if (may_sleep_now) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());

@@ -142,3 +142,43 @@ TEST_CASE("dashpots that push from the start on are booked from the start on", "
     CHECK(std::abs(simulation.ledger().residual) < 1e-3 * simulation.ledger().contact_damping_loss);
   }
 }
+
+TEST_CASE("what a dashpot pushed with until its contact slips is booked", "[simulation][ledger]") {
+  // At t = 0 dashpots bear all of the friction, one step later the contact slips.
+  for (const char* law : {"overlap_area", "cohesive_overlap", "vertex_edge"}) {
+    INFO(law);
+    WorkingScene text;
+    text.law = law;
+    text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 20,
+                        "normal_damping": 0.3, "tangential_damping": 0.3)";
+    text.bodies = box("floor", -5, -1, 5, 0, R"("fixed": true)") + "," +
+                  box("a", 0, 0, 2, 0.5, R"("velocity": [0.06, 0])");
+    text.gravity = "[0, -9.81]";
+    text.rest = R"("settle": {"duration": 0.3, "damping": 200},)";
+    text.time = R"({"end": 0.05, "dt": 6e-4})";
+    Simulation simulation(text.read(), {});
+    REQUIRE(simulation.settle());
+    while (simulation.advance()) {
+    }
+    CHECK(simulation.ledger().friction_loss > 0);
+    CHECK(simulation.summary().largest_residual_share < 5e-3);
+  }
+}
+
+TEST_CASE("steps of another length from a stage to the next output leave the balance as it is",
+          "[simulation][ledger]") {
+  for (const char* cover : {"rigid", "block"}) {
+    INFO(cover);
+    WorkingScene text;
+    text.cover = cover;
+    text.material =
+        R"("density": 2500, "model": "linear_elastic", "young_modulus": 1e7, "poisson_ratio": 0.25)";
+    text.bodies = box("held", 0, 30, 1, 32, R"("fix": ["x", "y", "rotation"])") + "," +
+                  box("floor", -5, -1, 5, 0, R"("fixed": true)");
+    text.gravity = "[0, -9.81]";
+    text.rest = R"("stages": [{"name": "let go", "from": 0.1205, "set": {"/bodies/0/fix": []}}],)";
+    text.output = R"({"history": 1e-3})";
+    text.time = R"({"end": 0.2, "dt": 1e-3})";
+    CHECK(run_to_end(text).summary().largest_residual_share < 1e-9);
+  }
+}

@@ -34,10 +34,11 @@ struct Cell {
   double depth;  ///< m, of its deepest point
   InterfaceParameters interface;
   std::uint32_t segment_start, segment_end;
-  double pressed = 0;  ///< N/m, what springs and dashpots bear along the normal of the contact
-  Point pressed_at{};  ///< where they do
-  double shear = 0;    ///< the share of friction that acts here
-  Point shear_at{};    ///< where it does
+  double pressed = 0;         ///< N/m, what springs and dashpots bear along the normal of the contact
+  Point pressed_at{};         ///< where they do
+  double pressed_on_end = 0;  ///< N/m, of it, on the end of the side
+  double shear = 0;           ///< the share of friction that acts here
+  Point shear_at{};           ///< where it does
 };
 
 /// A sub-segment of the slave within a cell (Fig. 5), with its trapezoid load as two end loads.

@@ -233,18 +233,53 @@ class DistributedContact {
   /// 2√(α_N L m). Along the normals of its sides instead it would brake a corner that slides.
   void normal_damping(const LoadSink& sink, const BodyPair& pair, double dt, PairReport& report) {
     if (contact_length_ == 0) return;
+    find_dashpots(pair);
     const Point normal_on_b = normal_of_contact();
+    for (const Dashpot& dashpot : dashpots_) {
+      Cell& cell = cells_[dashpot.cell];
+      const Segment& segment = normal_.segments[dashpot.segment];
+      const Piece& master = cell.overlap->piece[cell.master];
+      const Piece& slave = cell.overlap->piece[1 - cell.master];
+      const Point along = normal_of_overlap(cell), at = segment.at[dashpot.end];
+      const double force = may_push_[index_of(cell)].share() * dashpot.force;
+      sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * along);
+      sink.inside(master, cell.side, at, -force * along);
+      normal_on_b_ = normal_on_b_ + on_b(cell, force * along);
+      on_b_.add(at, on_b(cell, force * along));
+      report.damping_power += force * dashpot.rate * dt;
+      report.damping_force += static_cast<float>(std::abs(force));
+      const double pressed = force * std::max(0.0, dot(along, on_slave(cell, normal_on_b)));
+      cell.pressed += pressed;
+      cell.pressed_on_end += pressed * master.lever(cell.side, at);
+    }
     for (Cell& cell : cells_) {
+      const Piece& master = cell.overlap->piece[cell.master];
+      if (cell.pressed > 0) {
+        cell.pressed_at =
+            master.point_at(cell.side, std::clamp(cell.pressed_on_end / cell.pressed, 0.0, 1.0));
+      }
+      cell.pressed = std::max(0.0, cell.pressed);
+    }
+  }
+
+  /// None pulls by more than its part of the springs pushes; where others of those push the other way, it is
+  /// their sum that may not pull.
+  void find_dashpots(const BodyPair& pair) {
+    dashpots_.clear();
+    may_push_.assign(finder_.overlaps().size(), {});
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+      Cell& cell = cells_[c];
+      const Piece& master = cell.overlap->piece[cell.master];
+      const Piece& slave = cell.overlap->piece[1 - cell.master];
+      cell.pressed_on_end = cell.pressed * master.lever(cell.side, cell.foot);
       if (cell.interface.normal_damping == 0) continue;
       const double share = cell.master == 0 ? pair.master_share() : 1 - pair.master_share();
       const double viscosity =
           share * 2 * cell.interface.normal_damping *
           std::sqrt(cell.interface.normal_stiffness * pair.reduced_mass / cluster_length_);
-      const Piece& master = cell.overlap->piece[cell.master];
-      const Piece& slave = cell.overlap->piece[1 - cell.master];
       const Point along = normal_of_overlap(cell);
-      const double along_contact = std::max(0.0, dot(along, on_slave(cell, normal_on_b)));
-      double pressed = cell.pressed, on_end = pressed * master.lever(cell.side, cell.foot);
+      MayPush& may_push = may_push_[index_of(cell)];
+      may_push.spring = length(normal_.on_b[index_of(cell)]);
       for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {
         const Segment& segment = normal_.segments[s];
         // A slave side that leans pushes along the normal with a part of its load only.
@@ -258,19 +293,10 @@ class DistributedContact {
         for (int end = 0; end < 2; ++end) {
           const double viscous = viscosity * facing * segment.length * (2 * rate[end] + rate[1 - end]) / 6;
           const double force = std::max(viscous, -facing * segment.load[end]);
-          const Point at = segment.at[end];
-          sink.on_side(slave, segment.side, slave.lever(segment.side, at), force * along);
-          sink.inside(master, cell.side, at, -force * along);
-          normal_on_b_ = normal_on_b_ + on_b(cell, force * along);
-          on_b_.add(at, on_b(cell, force * along));
-          report.damping_power += force * rate[end] * dt;
-          report.damping_force += static_cast<float>(std::abs(force));
-          pressed += force * along_contact;
-          on_end += force * along_contact * master.lever(cell.side, at);
+          may_push.dashpots += force;
+          dashpots_.push_back({c, s, end, force, rate[end]});
         }
       }
-      cell.pressed = std::max(0.0, pressed);
-      if (pressed > 0) cell.pressed_at = master.point_at(cell.side, std::clamp(on_end / pressed, 0.0, 1.0));
     }
   }
 
@@ -283,9 +309,13 @@ class DistributedContact {
     for (Cell& cell : cells_) cell.pressed *= sum > 0 ? pressed / sum : 0;
   }
 
+  std::size_t index_of(const Cell& cell) const {
+    return static_cast<std::size_t>(cell.overlap - finder_.overlaps().data());
+  }
+
   /// The direction in which the springs of an overlap push the slave.
   Point normal_of_overlap(const Cell& cell) const {
-    const Point on_b = normal_.on_b[static_cast<std::size_t>(cell.overlap - finder_.overlaps().data())];
+    const Point on_b = normal_.on_b[index_of(cell)];
     const double size = length(on_b);
     return size > 0 ? on_slave(cell, (1 / size) * on_b) : cell.normal;
   }
@@ -300,10 +330,10 @@ class DistributedContact {
       stiffness += cell.interface.tangential_stiffness * cell.pressed;
       damping += cell.interface.tangential_damping * cell.pressed;
     }
-    const double old_stored = history.stored, old_applied = history.applied;
+    const FrictionHistory old = history;
     place_friction(history.slip != 0, limit);
     if (!(limit > 0) || contact_length_ == 0) {
-      report.slip_loss += old_stored - old_applied * slip_increment_ / 2;
+      report.slip_loss += old.stored - old.applied * slip_increment_ / 2;
       history = {0, 0, 0, contact_length_, history.x, history.y, 0, history.strips};
       return {0, 0};
     }
@@ -311,19 +341,21 @@ class DistributedContact {
     const FrictionInput input{stiffness / load * contact_length_,
                               batch.hold_stick ? std::numeric_limits<double>::infinity() : limit,
                               contact_length_, slip_increment_};
-    history = advance(law.rule(), history, input);
+    const bool mapped = law.rule() == FrictionRule::return_mapping;
+    history = advance(law.rule(), old, input);
     report.stored += history.stored;
-    report.slip_loss +=
-        -(old_applied + history.applied) * slip_increment_ / 2 - (history.stored - old_stored);
+    // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
+    const double before = mapped && history.slip == 0 ? old.elastic : old.applied;
+    report.slip_loss += -(before + history.applied) * slip_increment_ / 2 - (history.stored - old.stored);
 
-    double force = history.applied;
+    double& force = history.applied;
     // Table 1 of the paper knows no dashpot, and with one its creep after a stop is another.
-    if (damping > 0 && history.slip == 0 && law.rule() == FrictionRule::return_mapping) {
+    if (damping > 0 && history.slip == 0 && mapped) {
       const double viscosity =
           2 * damping / load *
           std::sqrt(input.stiffness * pair.reduced_mass * contact_length_ / cluster_length_);
       force = std::clamp(force - viscosity * slip_velocity_, -input.limit, input.limit);
-      const double dashpot = force - history.applied;
+      const double dashpot = force - history.elastic;
       report.damping_power += std::max(0.0, -dashpot * slip_increment_);
       report.damping_force += static_cast<float>(std::abs(dashpot));
     }
@@ -416,12 +448,25 @@ class DistributedContact {
             on_b_.moment_about(at)};
   }
 
+  struct Dashpot {
+    std::uint32_t cell, segment;
+    int end;             ///< of the segment
+    double force, rate;  ///< N/m; m/s, at which the bodies close in on each other there
+  };
+  /// Springs and dashpots of one overlap along its normal, N/m.
+  struct MayPush {
+    double spring = 0, dashpots = 0;
+    double share() const { return spring + dashpots < 0 ? spring / -dashpots : 1; }
+  };
+
   std::vector<std::uint32_t> loose_;  ///< pairs that have no lane in a plan
   LaneContact<Law, 4> quadrilaterals_;
   LaneContact<Law, 8> octagons_;
   OverlapGroups finder_;
   NormalLoads<Law> normal_;
-  std::vector<Cell> cells_;  ///< of the contact at hand
+  std::vector<Cell> cells_;        ///< of the contact at hand
+  std::vector<Dashpot> dashpots_;  ///< of the contact at hand
+  std::vector<MayPush> may_push_;  ///< [overlap]
   CarriedHistory carried_;
   bool several_faces_ = false;  ///< whether the cluster at hand has more groups than one
   Point normal_on_b_{0, 0};     ///< N/m, the same of a contact, and then with what dashpots push

@@ -9,7 +9,7 @@ namespace talus::overlap {
 /// What the host keeps for each overlap: eight doubles, a line of the cache.
 struct FrictionHistory {
   double elastic;         ///< N/m, tangential spring force on body b along s_c: −α_T V (Eq. 41)
-  double applied;         ///< N/m, tangential force without damping
+  double applied;         ///< N/m, tangential force, by return mapping with that of the dashpot
   double stored;          ///< J/m, in the tangential spring
   double contact_length;  ///< m, L projected on s_c
   double x, y;            ///< m, where it is, in the frame of the pair: to know it again
@@ -45,8 +45,7 @@ inline FrictionHistory return_mapping(const FrictionHistory& old, const Friction
                              ? old.elastic * (in.contact_length / old.contact_length)
                              : old.elastic;
   const double trial = carried - in.stiffness * in.increment;
-  now.elastic = std::clamp(trial, -in.limit, in.limit);
-  now.applied = now.elastic;
+  now.elastic = now.applied = std::clamp(trial, -in.limit, in.limit);
   now.slip = std::abs(trial) > in.limit ? std::copysign(1.0, trial) : 0.0;
   return now;
 }

@@ -95,7 +95,7 @@ class LaneLoads {
 
   struct Report {
     Pack stored, penetration, slip_loss = 0.0, damping_power = 0.0, damping_force = 0.0;
-    Pack elastic = 0.0, applied = 0.0, spring_energy = 0.0, slip = 0.0;
+    Pack elastic = 0.0, spring_energy = 0.0, slip = 0.0;
     Packs2 foot;            ///< m, where it acts
     Pack tangential = 0.0;  ///< N/m along the tangent, on piece 1
     Pack pressed;           ///< N/m, springs and dashpots along the normal: what friction goes by
@@ -147,6 +147,10 @@ class LaneLoads {
     each_cell([&](LaneCell& cell, Packs2 along) {
       dashpots.add(load_cell<true>(cell, along, stiffness, closing));
     });
+    // Where slave sides look away from the master their springs push the other way, and what the others'
+    // dashpots may take is too much.
+    const Mask pulls = spring_force_ + dashpots.force < 0.0;
+    if (simd::any(pulls)) dashpots.scale(simd::select(pulls, spring_force_ / -dashpots.force, 1.0));
     report.damping_power = dashpots.power * batch.dt;
     report.damping_force = dashpots.size;
     report.pressed = simd::max(0.0, spring_force_ + dashpots.force);
@@ -184,6 +188,12 @@ class LaneLoads {
       size = size + other.size;
       force = force + other.force;
       moment = moment + other.moment;
+    }
+    void scale(Pack share) {
+      power = share * power;
+      size = share * size;
+      force = share * force;
+      moment = share * moment;
     }
   };
 
@@ -302,12 +312,14 @@ class LaneLoads {
     const Pack trial = carried - stiffness * increment;
     const Pack elastic = simd::only_where(holds, simd::clamp(trial, -bound, bound));
     const Mask slips = holds & (simd::abs(trial) > bound);
-    report.elastic = report.applied = elastic;
+    report.elastic = elastic;
     report.spring_energy =
         simd::only_where(holds & (stiffness > 0.0), elastic * elastic / (stiffness + stiffness));
     report.slip = simd::only_where(slips, simd::select(trial < 0.0, -1.0, 1.0));
     report.stored = report.stored + report.spring_energy;
-    report.slip_loss = -(old_applied + elastic) * increment * 0.5 - (report.spring_energy - old_stored);
+    // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
+    const Pack before = simd::select(holds & !slips, old_elastic, old_applied);
+    report.slip_loss = -(before + elastic) * increment * 0.5 - (report.spring_energy - old_stored);
 
     report.tangential = elastic;
     if (simd::any(interface.tangential_damping > 0.0)) {
@@ -366,7 +378,7 @@ class LaneLoads {
     simd::scatter_rows(energies, report_row);
     if (simd::any(report.damping_force > 0.0)) write_dashpots(loads, g, report, wanted);
     if constexpr (Law::frictional) {
-      const Pack first[4] = {report.elastic, report.applied, report.spring_energy, contact_length_};
+      const Pack first[4] = {report.elastic, report.tangential, report.spring_energy, contact_length_};
       simd::scatter_rows(first, row);
       const Pack second[4] = {report.foot.x, report.foot.y, report.slip,
                               TouchingPair::pattern_unit * cells_[0].pattern + simd::load(g.starts)};
