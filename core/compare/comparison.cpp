@@ -174,16 +174,30 @@ bool is_column_of(const std::string& column, const Tolerance& tolerance) {
 void add_deviations(const ComparisonOrder& order, Comparison& comparison, std::size_t run,
                     const Series& other, bool from_reference) {
   const Series& history = comparison.runs[run].result.history;
+  const Between between = from_reference ? Between::line : Between::unknown;
   for (std::size_t column = 0; column < history.names.size(); ++column) {
     const auto other_column = other.column(history.names[column]);
     if (!other_column) continue;
-    const auto found =
-        deviation(history, column, other, *other_column, from_reference ? Between::line : Between::unknown);
+    const auto found = deviation(history, column, other, *other_column, between);
     if (!found) continue;
     ColumnDeviation& entry = comparison.deviations.emplace_back(
         ColumnDeviation{history.names[column], run, from_reference, *found, {}});
     for (const double moment : order.moments) {
-      entry.at_moments.push_back(deviation_at(history, column, other, *other_column, moment));
+      entry.at_moments.push_back(deviation_at(history, column, other, *other_column, between, moment));
+    }
+  }
+}
+
+/// A column of the reference that goes by the name of one of the runs, but in another unit.
+void warn_of_other_units(const ComparisonOrder& order, Comparison& comparison) {
+  const auto without_unit = [](const std::string& column) { return column.substr(0, column.rfind(" [")); };
+  const std::vector<std::string> columns = monitor_columns(order.scenes[0]);
+  for (const std::string& name : order.reference->series.names) {
+    if (std::ranges::count(columns, name) != 0) continue;
+    for (const std::string& column : columns) {
+      if (without_unit(column) != without_unit(name)) continue;
+      comparison.warnings.push_back(
+          fmt::format("{}: '{}' was left out, for the runs have '{}'", order.reference->file, name, column));
     }
   }
 }
@@ -230,6 +244,7 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
       comparison.warnings.push_back(fmt::format("'{}' has no time in common with {}",
                                                 comparison.runs[run].value, order.reference->file));
   }
+  if (order.reference) warn_of_other_units(order, comparison);
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
     const double end = order.scenes[0].time.end * (1 - 1e-9);
     const auto ends_early = [&](const Series& series) {
@@ -289,8 +304,7 @@ void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
       continue;
     }
     const Scene& scene = order.scenes[i];
-    const double due =
-        steps_at(scene, std::min(scene.time.dt.value_or(*comparison.common_dt), *comparison.common_dt));
+    const double due = steps_at(scene, scene.time.dt.value_or(*comparison.common_dt));
     if (std::abs(made - due) <= 0.01 * due) {
       run.own_steps = steps_at(scene, run.own_dt);
       continue;

@@ -18,40 +18,48 @@ std::size_t count_within(const std::vector<double>& times, const std::vector<dou
 
 }  // namespace
 
-std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
-                                   std::size_t other_column, Between between) {
-  Deviation found;
-  double squares = 0;
+Difference difference(const Series& series, std::size_t column, const Series& other, std::size_t other_column,
+                      Between between) {
   // A run that was stopped has a row of that moment besides.
   const bool other_is_coarser = between == Between::unknown && count_within(other.time, series.time) + 1 <
                                                                    count_within(series.time, other.time);
+  Difference found;
   for (const double time : other_is_coarser ? other.time : series.time) {
     const std::optional<double> value = interpolate(series.time, series.values[column], time);
     const std::optional<double> expected = interpolate(other.time, other.values[other_column], time);
     if (!value || !expected) continue;
-    const double difference = *value - *expected;
-    // Written so that a NaN is kept as the largest.
-    if (found.times == 0 ||
-        (!std::isnan(found.largest) && !(std::abs(difference) <= std::abs(found.largest)))) {
-      found.largest = difference;
-      found.largest_time = time;
-    }
-    squares += difference * difference;
-    found.final = difference;
-    found.final_time = time;
-    ++found.times;
+    found.time.push_back(time);
+    found.value.push_back(*value - *expected);
   }
-  if (found.times == 0) return std::nullopt;
+  return found;
+}
+
+std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
+                                   std::size_t other_column, Between between) {
+  const Difference apart = difference(series, column, other, other_column, between);
+  if (apart.time.empty()) return std::nullopt;
+  Deviation found;
+  double squares = 0;
+  for (std::size_t i = 0; i < apart.time.size(); ++i) {
+    const double value = apart.value[i];
+    // Written so that a NaN is kept as the largest.
+    if (i == 0 || (!std::isnan(found.largest) && !(std::abs(value) <= std::abs(found.largest)))) {
+      found.largest = value;
+      found.largest_time = apart.time[i];
+    }
+    squares += value * value;
+  }
+  found.final = apart.value.back();
+  found.final_time = apart.time.back();
+  found.times = apart.time.size();
   found.rms = std::sqrt(squares / static_cast<double>(found.times));
   return found;
 }
 
 std::optional<double> deviation_at(const Series& series, std::size_t column, const Series& other,
-                                   std::size_t other_column, double time) {
-  const std::optional<double> value = interpolate(series.time, series.values[column], time);
-  const std::optional<double> expected = interpolate(other.time, other.values[other_column], time);
-  if (!value || !expected) return std::nullopt;
-  return *value - *expected;
+                                   std::size_t other_column, Between between, double time) {
+  const Difference apart = difference(series, column, other, other_column, between);
+  return interpolate(apart.time, apart.value, time);
 }
 
 const char* name_of(ToleranceVerdict verdict) {

@@ -9,8 +9,7 @@
 
 namespace talus {
 
-/// How one curve parts from another, at its own times as far as the other one reaches. Signed: this minus
-/// the other.
+/// How one curve parts from another. Signed: this minus the other.
 struct Deviation {
   double largest = 0;       ///< the one of largest magnitude
   double largest_time = 0;  ///< s
@@ -24,15 +23,21 @@ struct Deviation {
 /// nothing is known there.
 enum class Between { line, unknown };
 
-/// Of `column` in `series` from `other_column` in `other`, at the times of `series`; where those of another
-/// run are further apart, at them. The other of the two is interpolated linearly. Nothing if no time is
-/// common to both.
+/// `column` of `series` less `other_column` of `other`, as far as both reach, at the times of `series`; where
+/// those of another run are further apart, at them. The other of the two is interpolated linearly.
+struct Difference {
+  std::vector<double> time, value;
+};
+Difference difference(const Series& series, std::size_t column, const Series& other, std::size_t other_column,
+                      Between between);
+
+/// How far two curves part at the times at which their difference is known. Nothing if there are none.
 std::optional<Deviation> deviation(const Series& series, std::size_t column, const Series& other,
                                    std::size_t other_column, Between between);
 
-/// The same at one time, both interpolated.
+/// At one time: on the line between the differences beside it.
 std::optional<double> deviation_at(const Series& series, std::size_t column, const Series& other,
-                                   std::size_t other_column, double time);
+                                   std::size_t other_column, Between between, double time);
 
 /// Of a run that was cut short, or has a baseline that was, no limit is known to be held.
 /// `unchecked`: there was nothing to compare with.

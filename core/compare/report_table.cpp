@@ -104,12 +104,15 @@ std::string tolerances_table(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_table(const ComparisonOrder& order, const Comparison& comparison) {
-  std::string text = fmt::format("{}: {} = {}{}\n\n", order.scenes[0].file, order.variation.pointer,
-                                 fmt::join(order.variation.values, ", "),
-                                 !comparison.common_dt ? "; each at its own time step"
-                                 : std::isfinite(*comparison.common_dt)
-                                     ? fmt::format("; largest step for all {:.6g} s", *comparison.common_dt)
-                                     : "; no step is critical");
+  std::string text = fmt::format(
+      "{}: {} = {}{}\n\n", order.scenes[0].file, order.variation.pointer,
+      fmt::join(order.variation.values, ", "),
+      !comparison.common_dt ? "; each at its own time step"
+      : order.scenes[0].time.dt
+          ? fmt::format("; the step that the scene states, {:.6g} s, for all", *order.scenes[0].time.dt)
+      : std::isfinite(*comparison.common_dt)
+          ? fmt::format("; largest step for all {:.6g} s", *comparison.common_dt)
+          : "; no step is critical");
   text += runs_table(comparison);
   text += deviations_table(order, comparison, false);
   text += deviations_table(order, comparison, true);

@@ -70,19 +70,15 @@ Json curves_of(const Series& series) {
           {"thinned", series.time.size() > most_rows}};
 }
 
-Series difference(const Series& series, const Series& from) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+Series difference(const Series& series, const Series& from, Between between) {
   Series found;
-  found.time = series.time;
   for (std::size_t column = 0; column < series.names.size(); ++column) {
     const std::optional<std::size_t> other = from.column(series.names[column]);
     if (!other) continue;
+    Difference apart = difference(series, column, from, *other, between);
+    found.time = std::move(apart.time);  // of all columns the same
     found.names.push_back(series.names[column]);
-    std::vector<double>& values = found.values.emplace_back();
-    for (std::size_t row = 0; row < series.time.size(); ++row) {
-      const std::optional<double> before = interpolate(from.time, from.values[*other], series.time[row]);
-      values.push_back(before ? series.values[column][row] - *before : none);
-    }
+    found.values.push_back(std::move(apart.value));
   }
   return found;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "output/series.hpp"
+#include "compare/deviation.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -16,7 +16,7 @@ nlohmann::ordered_json short_numbers(const std::vector<double>& values);
 /// `largest` is the largest magnitude of each column in all rows.
 nlohmann::ordered_json curves_of(const Series& series);
 
-/// What a history has in its columns more than another one of the same name, where both have values.
-Series difference(const Series& series, const Series& from);
+/// What a history has in its columns more than another one of the same name, at the times compared.
+Series difference(const Series& series, const Series& from, Between between);
 
 }  // namespace talus

@@ -119,8 +119,9 @@ Json curves_or_null(const std::optional<Series>& series) {
   return series ? curves_of(*series) : Json(nullptr);
 }
 
-Json difference_json(const std::optional<Series>& series, const std::optional<Series>& from) {
-  return series && from ? curves_of(difference(*series, *from)) : Json(nullptr);
+Json difference_json(const std::optional<Series>& series, const std::optional<Series>& from,
+                     Between between) {
+  return series && from ? curves_of(difference(*series, *from, between)) : Json(nullptr);
 }
 
 Json run_json(const fs::path& folder, const std::string& name, const std::optional<Series>& history) {
@@ -193,8 +194,8 @@ void add_compared_runs(const fs::path& folder, Json& page) {
     const fs::path in = folder / run.at("folder").get<std::string>();
     const std::optional<Series> history = series_in(in / "history.csv");
     Json entry = run_json(in, run.at("value"), history);
-    entry["from_baseline"] = difference_json(history, baseline);
-    entry["from_reference"] = difference_json(history, reference);
+    entry["from_baseline"] = difference_json(history, baseline, Between::unknown);
+    entry["from_reference"] = difference_json(history, reference, Between::line);
     page["runs"].push_back(std::move(entry));
     if (page["runs"].size() == 1) baseline = history;
   }

@@ -23,10 +23,14 @@ std::optional<std::size_t> most_work(const std::vector<StudyRun>& runs) {
   return best;
 }
 
-double largest_magnitude(const std::vector<double>& values) {
+/// Of a column, as far as another history goes: what comes later must not make its errors small.
+double largest_magnitude(const Series& series, std::size_t column, const Series& as_far_as) {
   double largest = 0;
-  for (const double value : values) {
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    const bool within = !as_far_as.time.empty() && series.time[i] >= as_far_as.time.front() &&
+                        series.time[i] <= as_far_as.time.back() * (1 + 1e-9);
+    const double value = series.values[column][i];
+    if (within && std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
   return largest;
 }
@@ -62,9 +66,11 @@ std::string words_of_nothing(const StudyPlan& plan, const std::vector<StudyRun>&
 /// Of errors: what rounding makes in a run says nothing of its steps.
 constexpr double round_off = 1e-11;
 
-/// A step that is stated is rounded to whole steps per output: its order is in those that ran.
+/// A step that is stated is rounded to whole steps per output, and one that is voted may be bound by more
+/// than its safety: its order is in those that ran.
 double size_of(const StudyPlan& plan, std::size_t variation, std::size_t number, const StudyRun& run) {
-  return plan.pointers[variation] == "/time/dt" ? run.dt : number_of(plan, variation, number);
+  const std::string& pointer = plan.pointers[variation];
+  return pointer == "/time/dt" || pointer == "/time/safety" ? run.dt : number_of(plan, variation, number);
 }
 
 /// Whether it says how finely a run resolves what it computes: errors have an order in nothing else.
@@ -85,8 +91,10 @@ void find_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs, Study
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
       if (!findings.runs[run].error || !(*findings.runs[run].error > round_off)) continue;
+      const double size = size_of(plan, family.variation, run, runs[run]);
+      if (!sizes.empty() && std::abs(size - sizes.back()) <= 1e-9 * size) continue;  // the same once more
       order.runs.push_back(run);
-      sizes.push_back(size_of(plan, family.variation, run, runs[run]));
+      sizes.push_back(size);
       errors.push_back(*findings.runs[run].error);
     }
     if (order.runs.size() < 2) continue;
@@ -177,8 +185,7 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     throw InputError(
         fmt::format("the reference has no column '{}'; it has '{}'", column, fmt::join(due.names, "', '")));
   }
-  const double scale = largest_magnitude(due.values[*due_column]);
-  if (!(scale > 0)) {
+  if (!(largest_magnitude(due, *due_column, due) > 0)) {
     throw InputError(fmt::format(
         "'{}' is 0 all along in the reference, so that no error is a share of it; choose another --metric",
         column));
@@ -192,7 +199,8 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
       findings.part = fmt::format("from {:.6g} to {:.6g} s", due.time.front(), due.time.back());
     const auto found =
         deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
-    if (!found || !std::isfinite(found->rms)) continue;
+    const double scale = largest_magnitude(due, *due_column, runs[i].history);
+    if (!found || !std::isfinite(found->rms) || !(scale > 0)) continue;
     findings.runs[i].rms = found->rms;
     findings.runs[i].largest = found->largest;
     findings.runs[i].error = found->rms / scale;

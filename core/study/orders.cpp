@@ -8,6 +8,7 @@ namespace talus {
 namespace {
 
 constexpr double steepest = 20;  ///< an order beyond is none
+constexpr double highest = 2;    ///< of all that is varied here: errors that fall faster do so by chance
 
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
   const auto count = static_cast<double>(x.size());
@@ -93,15 +94,20 @@ std::optional<double> Convergence::fit() const {
 }
 
 std::optional<double> Convergence::error_of_reference() const {
-  const std::optional<double> order = fit();
-  if (!reference_ || !order || *order == 0) return std::nullopt;
+  const std::optional<double> of_all = fit();
+  if (!reference_ || !of_all) return std::nullopt;
   std::size_t next = 0;
   for (std::size_t i = 1; i < size_.size(); ++i) {
     if (std::abs(size_[i] - *reference_) < std::abs(size_[next] - *reference_)) next = i;
   }
+  // Where errors last fell slower than over all, they may go on so.
+  const std::vector<double> orders = between_neighbours();
+  const double last = next == 0 ? orders.front() : orders.back(),
+               slower = std::abs(last) < std::abs(*of_all) ? last : *of_all,
+               order = std::clamp(slower, -highest, highest);
   // Errors fall towards it: p is above 0 where it is the smallest, below where it is the largest.
-  if (*order * (size_[next] - *reference_) <= 0) return std::nullopt;
-  return std::exp(error_[next] - scaled(next, *order) + *order * *reference_) / std::abs(*order);
+  if (order * (size_[next] - *reference_) <= 0) return std::nullopt;
+  return std::exp(error_[next] - scaled(next, order) + order * *reference_) / std::abs(order);
 }
 
 }  // namespace talus

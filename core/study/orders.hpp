@@ -17,8 +17,9 @@ class Convergence {
   std::vector<double> between_neighbours() const;
   /// That which fits all best, by least squares of the logarithms. Nothing where all are of one size.
   std::optional<double> fit() const;
-  /// What the reference itself misses, by the run that is next to it in size and the order that fits; nothing
-  /// where there is no such run or errors do not fall towards it.
+  /// What the reference itself misses, by the run that is next to it in size and the order that fits, that of
+  /// the last two or 2, whichever is lowest; nothing where there is no such run or errors do not fall towards
+  /// it.
   std::optional<double> error_of_reference() const;
 
  private:

@@ -119,11 +119,12 @@ std::string study_page(const std::string& title, const std::string& command, con
   std::string main = tiles_of(runs, findings);
   main += card("Error against cost", cost_note(runs), drawing(study_svg(plan, runs, findings)), false);
   for (const std::string& chart : order_charts(plan, runs, findings))
-    main += card("Observed order", "slope of the error, by least squares", drawing(chart), false);
+    main +=
+        card("Observed order", "errors over sizes, and the order that fits all best", drawing(chart), false);
   main += card("Energy residual", "what the ledger misses at most", drawing(residual_svg(plan, runs)), false);
   main += card("Overlap", "the deepest of the run", drawing(overlap_svg(plan, runs)), false);
   if (!findings.orders.empty())
-    main += card("Orders", "log of the quotient of errors over that of values",
+    main += card("Orders", "p of C |hᵖ − rᵖ|, r being the size of the reference run; of C hᵖ against a file",
                  table_of_orders(plan, findings), true);
   main += card("All runs", "from the cheapest; ★ none is both cheaper and nearer",
                table_of_runs(plan, runs, findings), true);

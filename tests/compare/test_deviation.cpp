@@ -42,8 +42,8 @@ TEST_CASE("a reference is interpolated, and used only as far as it reaches", "[c
   CHECK(found->rms == Approx(0.125));
   CHECK(found->final_time == 2.5);
   CHECK_FALSE(deviation(straight({7, 8}, 0, 0), 0, reference, 0, Between::line));
-  CHECK(deviation_at(run, 0, reference, 0, 1.75).value() == Approx(0.125));
-  CHECK_FALSE(deviation_at(run, 0, reference, 0, 2.75));
+  CHECK(deviation_at(run, 0, reference, 0, Between::line, 1.75).value() == Approx(0.125));
+  CHECK_FALSE(deviation_at(run, 0, reference, 0, Between::line, 2.75));
 }
 
 TEST_CASE("runs are compared at the times that both have written down", "[compare][deviation]") {
@@ -58,6 +58,9 @@ TEST_CASE("runs are compared at the times that both have written down", "[compar
     REQUIRE(found);
     CHECK(found->times == 3);
     CHECK(std::abs(found->largest) < 1e-12);
+    const auto between = deviation_at(*run, 0, run == &fine ? coarse : fine, 0, Between::unknown, 1.5);
+    REQUIRE(between);
+    CHECK(std::abs(*between) < 1e-12);
   }
   CHECK(std::abs(deviation(fine, 0, coarse, 0, Between::line)->largest) == Approx(0.25));
 }

@@ -39,13 +39,20 @@ TEST_CASE("Of a difference only what both have is told", "[report]") {
   const Series base{{0, 1, 2}, {"a", "b"}, {{1e6, 1e6, 1e6}, {0, 2, 4}}};
   const Series run{
       {0, 0.5, 1.5, 3}, {"b", "c", "a"}, {{0, 1, 3.5, 9}, {1, 1, 1, 1}, {1e6, 1e6 + 1e-9, 1e6, 0}}};
-  const Series found = difference(run, base);
-  CHECK(found.time == run.time);
+  const Series found = difference(run, base, Between::line);
+  CHECK(found.time == std::vector<double>{0, 0.5, 1.5});
   CHECK(found.names == std::vector<std::string>{"b", "a"});
-  CHECK(found.values[0][1] == 0);
-  CHECK(found.values[0][2] == 0.5);
-  CHECK(std::isnan(found.values[0][3]));
-  const auto json = curves_of(found);
-  CHECK(json["values"][0][3].is_null());
-  CHECK(json["values"][1][1].get<double>() == Approx(1e-9).epsilon(0.2));
+  CHECK(found.values[0] == std::vector<double>{0, 0, 0.5});
+  CHECK(curves_of(found)["values"][1][1].get<double>() == Approx(1e-9).epsilon(0.2));
+}
+
+TEST_CASE("Two runs that write at other times part by what their common rows tell", "[report]") {
+  Series coarse{{0, 1, 2}, {"a"}, {{0, 1, 4}}}, fine{{}, {"a"}, {{}}};
+  for (int i = 0; i <= 20; ++i) {
+    fine.time.push_back(0.1 * i);
+    fine.values[0].push_back(0.01 * i * i);
+  }
+  const Series found = difference(fine, coarse, Between::unknown);
+  CHECK(found.time == coarse.time);
+  for (const double value : found.values[0]) CHECK(std::abs(value) < 1e-12);
 }

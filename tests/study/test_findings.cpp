@@ -59,18 +59,29 @@ TEST_CASE("Orders allow for what the reference run misses, at either end of its 
     const Convergence fine(steps, errors(steps, 5e-4), 5e-4);
     for (const double found : fine.between_neighbours()) CHECK(found == Approx(order).epsilon(1e-9));
     CHECK(*fine.fit() == Approx(order).epsilon(1e-6));
-    CHECK(*fine.error_of_reference() == Approx(std::pow(5e-4, order)).epsilon(1e-6));
+    // No method here is of more than second order, so nothing counts on more.
+    const auto due = [&](double last, double next, double reference) {
+      const double p = std::clamp(order, -2.0, 2.0) * (next > reference ? 1 : -1), r = std::pow(reference, p);
+      return last * r / std::abs(std::pow(next, p) - r);
+    };
+    CHECK(*fine.error_of_reference() == Approx(due(errors(steps, 5e-4)[2], 1e-3, 5e-4)).epsilon(1e-6));
     // Springs are the finer the stiffer.
     std::vector<double> springs{4e9, 2e9, 1e9}, missed;
     for (const double k : springs) missed.push_back(std::pow(k, -order) - std::pow(8e9, -order));
     const Convergence stiff(springs, missed, 8e9);
     for (const double found : stiff.between_neighbours()) CHECK(found == Approx(-order).epsilon(1e-9));
-    CHECK(*stiff.error_of_reference() == Approx(std::pow(8e9, -order)).epsilon(1e-6));
+    CHECK(*stiff.error_of_reference() == Approx(due(missed[0], 4e9, 8e9)).epsilon(1e-6));
+    if (order <= 2) CHECK(*fine.error_of_reference() == Approx(std::pow(5e-4, order)).epsilon(1e-6));
     // Against an exact answer.
     const Convergence exact(steps, errors(steps, 0), std::nullopt);
     for (const double found : exact.between_neighbours()) CHECK(found == Approx(order).epsilon(1e-9));
     CHECK_FALSE(exact.error_of_reference());
   }
+  // Errors that fall ever slower: by the last two the reference misses more than by all.
+  const Convergence slower({16, 8, 4, 2}, {1, 0.1, 0.02, 0.008}, 1);
+  const double last = slower.between_neighbours().back();
+  CHECK(last < *slower.fit());
+  CHECK(*slower.error_of_reference() == Approx(0.008 / (std::pow(2, last) - 1)).epsilon(1e-9));
   // What does not fall has no order that a reference could be off by.
   const Convergence flat({4, 2, 1}, {1, 1, 1.01}, 0.5);
   CHECK_FALSE(flat.error_of_reference());
@@ -98,8 +109,22 @@ TEST_CASE("The order in the time step is that in the steps that ran", "[study]")
   REQUIRE(findings.orders[0].orders.size() == 1);
   CHECK(findings.orders[0].orders[0] == Approx(2));
   CHECK(findings.orders[0].fit == Approx(2));
+  // What bounds an automatic step besides its safety makes two runs one, too.
+  StudyPlan plan = sample_steps();
+  plan.pointers[0] = "/time/safety";
+  CHECK(find_out(plan, runs, sample_column, std::nullopt).orders[0].fit == Approx(2));
   runs[2].dt = runs[1].dt;
   CHECK(find_out(sample_steps(), runs, sample_column, std::nullopt).orders.empty());
+}
+
+TEST_CASE("What a reference does after the runs does not make their errors small", "[study]") {
+  const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                                   run_of(0.08, 2, 2), run_of(0.02, 9, 90)};
+  Series reference = run_of(0, 0, 0).history;
+  const double error = *find_out(sample_steps(), runs, sample_column, reference).runs[0].error;
+  reference.time.push_back(1e3);
+  reference.values[0].push_back(1e6);
+  CHECK(*find_out(sample_steps(), runs, sample_column, reference).runs[0].error == error);
 }
 
 TEST_CASE("What rounding makes tells no order", "[study]") {

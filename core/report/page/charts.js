@@ -155,8 +155,8 @@ function monitorCharts() {
   );
   if (data.reference)
     data.reference.names.forEach((name, column) => {
-      const {monitor, quantity} = parsed(name);
-      if (groups.has(quantity))
+      const {monitor, quantity, unit} = parsed(name);
+      if (groups.has(quantity) && groups.get(quantity).unit === unit)
         groups
           .get(quantity)
           .curves.push({

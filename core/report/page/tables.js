@@ -17,11 +17,8 @@ function tiles() {
   const note = (unit) => `${unit}, ${monitors[0].length > 1 ? 'the largest of all monitors' : monitors[0][0]}`;
   const largest = (of) => runs.map((run, i) => Math.max(...monitors[i].map((monitor) => of(run, monitor))));
   if (monitors[0].length) {
-    add(
-      'Largest speed',
-      largest((run, monitor) => run.history.largest[column(run, `${monitor}.speed [m/s]`)]),
-      note('m/s'),
-    );
+    const speeds = largest((run, monitor) => run.history.largest[column(run, `${monitor}.speed [m/s]`)]);
+    if (speeds.every(Number.isFinite)) add('Largest speed', speeds, note('m/s'));
     const moved = largest((run, monitor) =>
       Math.hypot(last(run, `${monitor}.ux [m]`), last(run, `${monitor}.uy [m]`)),
     );
@@ -64,8 +61,8 @@ function deviationTable() {
   for (const [name, of] of Object.entries(comparison.deviations)) {
     const base = runs[0].history.values[runs[0].history.names.indexOf(name)] || [];
     const size = Math.max(...base.map(Math.abs), 0);
-    for (const [run, against] of Object.entries(of))
-      for (const [from, entry] of Object.entries(against)) {
+    for (const {name: run} of runs)
+      for (const [from, entry] of Object.entries(of[run] || {})) {
         const bar = element('span', {
           class: 'bar',
           style: `width:${size > 0 ? Math.min(6, (6 * entry.rms) / size) : 0}em`,
@@ -161,6 +158,7 @@ function provenance() {
       comparison ? run.label : 'run',
       `${run.record.steps} steps of at most ${number(run.record['dt [s]'], 6)} s (${run.record.dt_limiter}), state ${run.record.state_hash}`,
     );
+  for (const warning of (comparison && comparison.warnings) || []) add('warning', warning);
   for (const run of runs)
     for (const warning of run.record.warnings)
       add('warning', comparison ? `${run.label}: ${warning}` : warning);
