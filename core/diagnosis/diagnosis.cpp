@@ -58,8 +58,14 @@ std::string name_of(const Scene& scene, std::uint32_t body) {
   return "'" + scene.bodies[body].name + "'";
 }
 
-void advise_on_step(const Scene& scene, const CriticalStep& bound, std::vector<std::string>& advice) {
-  if (!scene.time.dt) {
+void advise_on_step(const Scene& scene, const CriticalStep& bound, double dt,
+                    std::vector<std::string>& advice) {
+  if (dt < hardly_the_step * bound.dt) {
+    advice.push_back(
+        fmt::format("the step is {:.2g} of the stable one and hardly to blame: `talus check-plugin` tells "
+                    "whether law and materials book what they take",
+                    dt / bound.dt));
+  } else if (!scene.time.dt) {
     advice.push_back(
         fmt::format("/time/safety is {:.3g}: try {:.2g}; if the trouble stays, it is not the step",
                     scene.time.safety, scene.time.safety / 4));
@@ -101,7 +107,7 @@ void advise_on_overlap(const Scene& scene, const std::vector<DiagnosedStep>& ste
 std::vector<std::string> advice_for(const Scene& scene, const Diagnosis& diagnosis) {
   const bool unbalanced = !(diagnosis.steps.back().share <= scene.limits.energy_residual);
   std::vector<std::string> advice;
-  if (unbalanced || scene.time.dt) advise_on_step(scene, diagnosis.bound, advice);
+  if (unbalanced || scene.time.dt) advise_on_step(scene, diagnosis.bound, diagnosis.steps.back().dt, advice);
   advise_on_overlap(scene, diagnosis.steps, advice);
   if (unbalanced)
     advice.push_back(

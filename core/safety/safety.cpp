@@ -68,7 +68,7 @@ class Reduction {
     warnings_ = whole.summary().warnings;
     warn_of_gone(drawn.gone(drawn.motions(whole, began)));
     warn_of_locking(whole);
-    warn_of_brittle_bonds();
+    warn_of_brittle_bonds(whole.deepest_overlap().penetration);
     geometry_ = whole.geometry();
     stood_ = parts_of(whole);
     pieces_.emplace(whole);
@@ -107,9 +107,10 @@ class Reduction {
         listed(names)));
   }
 
-  /// Bonds that do not soften are gone before friction has come to its limit: the two are never there
-  /// together, as limit equilibrium has them.
-  void warn_of_brittle_bonds() {
+  /// Bonds that soften too soon are gone before friction has come to its limit: the two are never there
+  /// together, as limit equilibrium has them. Friction of μp over a cohesion of c is late by (μp − c)/α_T,
+  /// and c has lost as much of its softening by then.
+  void warn_of_brittle_bonds(double penetration) {
     if (scene_.contact.component == nullptr) return;
     const Component& law = *scene_.contact.component->component;
     const auto value_of = [&](const std::vector<double>& values, std::string_view key) {
@@ -119,17 +120,23 @@ class Reduction {
       return 0.0;
     };
     constexpr double enough = 10;  // of the slip at which a bond has all of its strength
+    constexpr double late = 100;   // of the slip by which friction is late
     double wanted = 0;
     for (const std::vector<double>& values : scene_.interface_values) {
-      const double slip = value_of(values, "cohesion") / value_of(values, "tangential_stiffness");
-      if (slip > 0 && std::isfinite(slip) && value_of(values, "softening_slip") < enough * slip)
-        wanted = std::max(wanted, enough * slip);
+      const double cohesion = value_of(values, "cohesion"),
+                   stiffness = value_of(values, "tangential_stiffness"),
+                   friction = std::tan(value_of(values, "friction_angle")) *
+                              value_of(values, "normal_stiffness") * penetration;
+      const double due = std::max(enough * cohesion, late * (friction - cohesion)) / stiffness;
+      if (cohesion > 0 && std::isfinite(due) && value_of(values, "softening_slip") < due)
+        wanted = std::max(wanted, due);
     }
     if (wanted == 0) return;
     warnings_.push_back(fmt::format(
         "cohesion of an interface is lost where it breaks before friction bears its part: the factor "
         "may be below that of limit equilibrium; `cohesive_overlap` with a softening_slip of {:.2g} m "
-        "or more, ten times cohesion/tangential_stiffness, lets both come to their strength",
+        "or more, ten times cohesion/tangential_stiffness and a hundred times by what friction is more than "
+        "cohesion, lets both come to their strength",
         wanted));
   }
 

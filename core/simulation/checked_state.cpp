@@ -194,14 +194,18 @@ void Simulation::State::check_balance() {
           ? fmt::format("; where that changes nothing, '{}', which has no potential, makes or loses it",
                         law->name)
           : "";
+  const char* const advice = plan.dt < hardly_the_step * critical.dt
+                                 ? "hardly the step; `talus check-plugin` tells whether law and materials "
+                                   "book what they take"
+                             : law != nullptr ? "take a smaller one, or damp the contacts"
+                                              : "take a smaller one";
   throw NumericalTrouble(
       fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
-                  "throughput {:.3g} J/m, the "
-                  "limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the critical {:.3g} s ({}): take a "
-                  "smaller one{}{}",
+                  "throughput {:.3g} J/m, the limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the "
+                  "critical {:.3g} s ({}): {}{}",
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  limiter_of(scene, critical), law != nullptr ? ", or damp the contacts" : "", of_the_law));
+                  limiter_of(scene, critical), advice, of_the_law));
 }
 
 void Simulation::State::warn_of_large_step() {
@@ -222,6 +226,17 @@ void Simulation::State::warn_of_large_step() {
         plan.dt, plan.dt / critical.spring_dt, critical.spring_dt, scene.bodies[critical.spring_body].name,
         table::safety_with_contact));
   }
+}
+
+/// Where it has friction held stuck and all strength intact a scene is another, and the ledger of that is no
+/// part of the run; yet what appears from nothing has put it elsewhere.
+void Simulation::State::warn_of_unbalanced_settling() {
+  const double share = ledger.residual_share();
+  if (share <= scene.limits.energy_residual) return;
+  summary.warnings.push_back(fmt::format(
+      "while the scene settled the energy balance missed {:.2g} % of the throughput of {:.3g} J/m: "
+      "where it came to rest may be wrong",
+      100 * share, ledger.ledger().throughput));
 }
 
 void Simulation::State::warn_of_initial_overlap() {

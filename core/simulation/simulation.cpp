@@ -120,6 +120,7 @@ bool Simulation::settle(const Pause& pause) {
         s.scene.settle->duration, s.unbalanced_share, *s.scene.settle->until));
   }
   s.warn_of_settlement();
+  s.warn_of_unbalanced_settling();
   s.settling = false;
   s.settle_over = true;
   s.motion.stop();

@@ -133,6 +133,7 @@ struct Simulation::State {
   void warn_of_large_step();
   void warn_of_initial_overlap();
   void warn_of_settlement();
+  void warn_of_unbalanced_settling();
   void warn_of_thin_ground();
   void bring_rotation_up_to_date();
   double rotation_since_start(std::uint32_t body) const;  ///< rad

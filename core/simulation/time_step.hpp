@@ -19,6 +19,9 @@ struct CriticalStep {
   bool strained;                    ///< dt mostly by strain modes, not by contacts
 };
 
+/// Where a step is less of the critical one than this, energy that is lost has hardly to do with it.
+inline constexpr double hardly_the_step = 0.1;
+
 /// In words, who limits the critical step.
 std::string limiter_of(const Scene& scene, const CriticalStep& step);
 
