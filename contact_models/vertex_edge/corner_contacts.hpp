@@ -71,7 +71,8 @@ class CornerFinder {
                                                                                   : std::nullopt;
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
-        stand(own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1, false}, found);
+        stand(pieces, own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1, false},
+              found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -104,9 +105,9 @@ class CornerFinder {
     return true;
   }
 
-  [[gnu::always_inline]] static void stand(const Piece& own, const Piece& other, const Vertex& vertex,
-                                           BondReach bond_reach, CornerContact contact,
-                                           std::vector<CornerContact>& found) {
+  [[gnu::always_inline]] static void stand(std::span<const PiecePairGeometry> pieces, const Piece& own,
+                                           const Piece& other, const Vertex& vertex, BondReach bond_reach,
+                                           CornerContact contact, std::vector<CornerContact>& found) {
     const std::uint32_t v = contact.vertex;
     const Point at = own.at(v), outward = outward_of(own, vertex, v);
     // A strip knows one side of its corner. At right angles to what it stands on, rounding would have it
@@ -133,6 +134,7 @@ class CornerFinder {
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
     contact.slack = std::min(sought, flush * edge);
+    bool at_cut = false;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;
       // Behind a reflex corner a vertex is past the end of either face by its depth behind the other, over
@@ -140,16 +142,40 @@ class CornerFinder {
       const bool ends_side = !other.is_strip() && other.is_cut(k) &&
                              (other.next(k) == contact.side || other.next(contact.side) == k);
       const double past = -other.depth(k, at);
+      at_cut = at_cut || (other.is_cut(k) && past >= -1e-9 * edge);
       if (!(past > contact.slack)) continue;
       if (!ends_side || past > edge || !(contact.depth > 0)) return;
       contact.past_cut = true;
     }
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);
+    if (at_cut && !contact.past_cut && is_before_another(pieces, at, outward, contact)) return;
     contact.tributary = tributary_length(own, other, v, contact.side);
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
+  }
+
+  /// Whether a vertex at the cut of a piece, not flush with the end of its side, is before a side that faces
+  /// it of the piece beyond: where a cut ends near a corner, the one sees the far side, the other the near.
+  static bool is_before_another(std::span<const PiecePairGeometry> pieces, Point at, Point outward,
+                                const CornerContact& contact) {
+    const double touching = 1e-6 * contact.depth;
+    const std::uint32_t met = 1 - contact.vertex_body;
+    const Piece& side_of = pieces[contact.entry].piece[met];
+    const double past_end = side_of.length(contact.side) * std::max(-contact.lever, contact.lever - 1);
+    if (contact.depth <= 0 || (past_end > 0 && past_end <= contact.slack)) return false;  // flush with it
+    return std::ranges::any_of(pieces, [&](const PiecePairGeometry& pair) {
+      const Piece& piece = pair.piece[met];
+      if (piece.first_corner() == side_of.first_corner() || piece.is_strip()) return false;
+      bool before = false;
+      for (std::uint32_t k = 0; k < piece.size(); ++k) {
+        const double depth = piece.depth(k, at);
+        if (depth < -contact.slack) return false;
+        before = before || (piece.real(k) && depth <= touching && dot(outward, piece.normal(k)) < 0);
+      }
+      return before;
+    });
   }
 
   /// Where the body points at a vertex. A short edge beside it says nothing of that.

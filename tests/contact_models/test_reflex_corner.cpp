@@ -179,7 +179,7 @@ TEST_CASE("a vertex past the cut of a concave body stands on nothing", "[laws][v
   const auto polygon = [](const Points& points, double lifted) {
     std::string text;
     for (const Vec2& p : points)
-      text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", p.x + lifted, p.y);
+      text += fmt::format("{}[{:.17g}, {:.17g}]", text.empty() ? "" : ", ", p.x + lifted, p.y);
     return text;
   };
   struct Case {
@@ -190,11 +190,20 @@ TEST_CASE("a vertex past the cut of a concave body stands on nothing", "[laws][v
   const Points deep{{0.5, -2}, {1.5, 0}, {1, 2}, {0.6, 0.5}, {0.5, 0.5}}, slim{{1.5, 0}, {2.5, 2}, {1, 2}},
       shallow{{-3, -2}, {0.5, -2}, {1.5, 0}, {1, 2}, {1.1, 0.25}, {-3, 0.25}}, wide{{1.5, 0}, {4, 2}, {1, 2}},
       arrow{{0, 0}, {3, 0}, {3, 4}, {0, 4}, {1, 2}}, hull{{0, 0}, {1, 2}, {0, 4}, {-2, 4}, {-2, 0}};
+  // Its cut ends a millimetre beside the corner that the other touches.
+  const Points quadrilateral{{6.549921139513269, 2.237697905544272},
+                             {6.9521817554286525, 4.060608109365036},
+                             {5.5656987984883175, 4.4004169793849375},
+                             {5.163438182572934, 2.577506775564172}},
+      hooked{{6.9521817554286525, 4.060608109365036}, {7.024928625040901, 4.390272525083234},
+             {6.5072911056252405, 4.963656067167771}, {6.163528385221413, 5.930388536141595},
+             {6.175892267912417, 6.172365555702733},  {5.967959414403701, 6.223327183205703},
+             {5.5656987984883175, 4.4004169793849375}};
   const char *none = R"("cohesion": 0, "tensile_strength": 0)",
              *strong = R"("cohesion": 5.9e5, "tensile_strength": 1.77e5)";
   for (const Case& given :
        {Case{deep, slim, 0, none}, Case{deep, slim, 1e-3, none}, Case{shallow, wide, 0, none},
-        Case{arrow, hull, 0, none}, Case{arrow, hull, 0, strong}}) {
+        Case{arrow, hull, 0, none}, Case{arrow, hull, 0, strong}, Case{quadrilateral, hooked, 0, none}}) {
     INFO(polygon(given.a, 0) << "; " << polygon(given.b, given.lifted) << "; " << given.bond);
     WorkingScene text;
     text.law = "vertex_edge";
