@@ -135,6 +135,37 @@ TEST_CASE("what runs cost at their own steps is told of steps that they would ma
   CHECK_THAT(told, Contains("bound its own more from some time on"));
 }
 
+TEST_CASE("a step that the scene states is told as that, and what it costs at the automatic one is, too",
+          "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.05, \"damping\": 30}"));
+  const std::vector<std::string> words{"compare", "small.json", "--vary", "/title=a,b", "--overwrite"};
+  REQUIRE(call_talus(scratch.folder(), words).code == 0);
+  const double own = json_of(scratch / "out/small-compare/compare.json")["runs"][0]["own_dt [s]"];
+  std::vector<std::string> stated = words;
+  stated.insert(stated.end(), {"--set", fmt::format("/time/dt={}", 1.5 * own)});
+  const Call call = call_talus(scratch.folder(), stated);
+  INFO(call.out << call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out, Contains("the step that the scene states, "));
+  CHECK_THAT(call.err, !Contains("bound its own more"));
+  const auto run = json_of(scratch / "out/small-compare/compare.json")["runs"][1];
+  CHECK(run["own_steps"].get<double>() > run["steps"].get<double>());
+  CHECK(run["cost_at_own_dt"].is_number());
+}
+
+TEST_CASE("columns of a reference in another unit are named", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.05, \"damping\": 30}"));
+  scratch.write("reference.csv", "t [s],block.speed [m/s],block.ux [mm]\n0,0,0\n1,1,1\n");
+  const Call call = call_talus(
+      scratch.folder(), {"compare", "small.json", "--vary", "/title=a", "--reference", "reference.csv"});
+  INFO(call.err);
+  CHECK(call.code == 0);
+  CHECK_THAT(call.err, Contains("'block.ux [mm]' was left out, for the runs have 'block.ux [m]'") &&
+                           !Contains("'block.speed [m/s]' was left out"));
+}
+
 TEST_CASE("a comparison keeps the reference it was made with, and overwrites no other", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

@@ -287,6 +287,13 @@ TEST_CASE("doctor says which step was the first bad one and what to change", "[a
                            Contains("first bad step (->): t = ") && Contains("/time/dt is ") &&
                            Contains("take \"auto\""));
   CHECK_FALSE(std::filesystem::exists(scratch / "out/small/report.html"));
+  // Where rows are far apart the step that stops it is in none of them.
+  REQUIRE(call_talus(scratch.folder(),
+                     {"run", "small.json", "--set", "/time/dt=0.1", "--set", "/output/history=0.5", "--set",
+                      "/output/frames=0.5", "--set", "/time/end=20", "--no-report", "--out", "sparse"})
+              .code == 4);
+  CHECK_THAT(call_talus(scratch.folder(), {"doctor", "sparse"}).out,
+             Contains("% of the throughput at most, when the run was stopped"));
   REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "good", "--quiet"}).code == 0);
   const Call good = call_talus(scratch.folder(), {"doctor", "good"});
   CHECK(good.code == 0);

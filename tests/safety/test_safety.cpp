@@ -164,6 +164,12 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
     CHECK_THAT(brittle[0], Catch::Contains("lost where it breaks") && Catch::Contains("softening_slip"));
   }
   CHECK(bonded("cohesive_overlap", R"(, "cohesion": 1e4, "softening_slip": 1e-3)").empty());
+  // Friction comes long after so little cohesion.
+  const std::vector<std::string> late =
+      bonded("cohesive_overlap", R"(, "cohesion": 100, "softening_slip": 1.1e-7)");
+  REQUIRE(late.size() == 1);
+  CHECK_THAT(late[0], Catch::Contains("by what friction is more than cohesion"));
+  CHECK(bonded("cohesive_overlap", R"(, "cohesion": 100, "softening_slip": 1e-3)").empty());
 }
 
 TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {

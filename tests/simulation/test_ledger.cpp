@@ -165,6 +165,40 @@ TEST_CASE("what a dashpot pushed with until its contact slips is booked", "[simu
   }
 }
 
+TEST_CASE("what is missed while a scene settles is told, and a small step is not blamed",
+          "[simulation][ledger]") {
+  WorkingScene text;
+  text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," + box("a", 0, 0, 1, 1);
+  text.gravity = "[0, -10]";
+  text.rest = R"("settle": {"duration": 0.01, "damping": 10}, "limits": {"energy_residual": 1e-15},)";
+  text.time = R"({"end": 0.01, "dt": 1e-6})";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  REQUIRE(simulation.summary().warnings.size() == 1);
+  CHECK_THAT(simulation.summary().warnings[0], Catch::Contains("while the scene settled the energy balance"));
+  const auto run = [&] {
+    while (simulation.advance()) {
+    }
+  };
+  CHECK_THROWS_WITH(run(), Catch::Contains("hardly the step; `talus check-plugin`"));
+}
+
+TEST_CASE("the largest overlap of a run that is stopped is that which stopped it", "[simulation]") {
+  WorkingScene text;
+  text.interface = R"("normal_stiffness": 1e5, "tangential_stiffness": 1e5, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," +
+                box("a", 0, 0.1, 1, 1.1, R"("velocity": [0, -20])");
+  text.time = R"({"end": 1, "dt": 1e-3})";
+  Simulation simulation(text.read(), {});
+  const auto run = [&] {
+    while (simulation.advance()) {
+    }
+  };
+  CHECK_THROWS_WITH(run(), Catch::Contains("too deep an overlap"));
+  CHECK(simulation.summary().largest_penetration > 0.3);
+}
+
 TEST_CASE("steps of another length from a stage to the next output leave the balance as it is",
           "[simulation][ledger]") {
   for (const char* cover : {"rigid", "block"}) {
