@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace talus::conformance {
 namespace {
@@ -240,78 +239,6 @@ void check_interfaces(const Subject& subject, Trial& trial) {
       for (std::size_t body = 0; body < 2; ++body) {
         trial.at_most(difference(alone.forces[body], among.forces[body]), 0,
                       fmt::format("difference of force [N/m] or moment [N] on body {}", body));
-      }
-    }
-  }
-}
-
-namespace {
-
-/// No limit applies while a scene settles with friction held.
-void expect_held(Trial& trial, const Subject& subject, const Values& interface, double mu) {
-  trial.feed(
-      fmt::format("a block 1 mm deep in a base slides at 1 m/s, friction {:g}, hold_stick, 40 steps of "
-                  "0.5 ms",
-                  mu));
-  DrivenLaw law(*subject.component, interface);
-  law.bodies = flat_on_flat();
-  law.bodies[1].motion.velocity = {1, 0};
-  law.hold_stick = true;
-  Evaluation e;
-  for (int step = 0; step < 40; ++step) e = law.step(5e-4);
-  trial.at_most(1.5 * mu * e.on(1).y, std::abs(e.on(1).x),
-                "one and a half of μ P [N/m], which the force along the base goes beyond");
-}
-
-}  // namespace
-
-void check_friction_limit(const Subject& subject, Trial& trial) {
-  if (!has_interface_parameter(subject, "friction_angle") &&
-      !has_interface_parameter(subject, "friction_coefficient")) {
-    trial.not_claimed("no interface parameter friction_angle or friction_coefficient");
-    return;
-  }
-  const double rounded = 1e-15 * scale_of(subject);
-  for (const double angle : {0.0, 5.0, 25.0, 45.0}) {
-    const double mu = std::tan(angle * std::numbers::pi / 180);
-    const Values interface = with(
-        lively_interface(),
-        {{"friction_angle", angle}, {"friction_coefficient", mu}, {"cohesion", 0}, {"tensile_strength", 0}});
-    for (const double speed : {0.05, 1.0, -5.0}) {
-      trial.feed(
-          fmt::format("a block 1 mm deep in a base slides at {:g} m/s, friction {:g} (angle {:g} degrees), "
-                      "20 steps of 0.5 ms",
-                      speed, mu, angle));
-      DrivenLaw law(*subject.component, interface);
-      law.bodies = flat_on_flat();
-      law.bodies[1].motion.velocity = {speed, 0};
-      Evaluation e;
-      for (int step = 0; step < 20; ++step) {
-        e = law.step(5e-4);
-        // Both ends of the block are immersed by 1 mm of 1 m and count with their share.
-        trial.at_most(std::abs(e.on(1).x), 1.01 * mu * e.on(1).y + 1e-9 * e.on(1).y + rounded,
-                      "force along the base [N/m]");
-      }
-      // After 10 mm and more at 1 m/s and more all springs have reached their limit, and what grows with the
-      // speed its end.
-      if (std::abs(speed) < 1) continue;
-      trial.at_most(0.9 * mu * e.on(1).y - std::abs(e.on(1).x), rounded,
-                    "what the force along the base lacks of nine tenths of μ P [N/m]");
-    }
-    if (mu > 0) expect_held(trial, subject, interface, mu);
-    for (const HeldPair& pair : random_pairs(36)) {
-      // With the flat as master all loads push one way, and the resultant is their sum.
-      if (pair.name.find("corner on flat") == std::string::npos) continue;
-      trial.feed(fmt::format("{}, moving, friction {:g}", fed_pair(pair, 1), mu));
-      DrivenLaw law(*subject.component, interface);
-      law.bodies = pair.bodies;
-      law.master_share = 1;
-      for (int step = 0; step < 4; ++step) {
-        for (const ContactReport& contact : law.step(5e-4).contacts) {
-          trial.at_most(std::hypot(contact.tx, contact.ty),
-                        mu * std::hypot(contact.px, contact.py) * (1 + 1e-9) + rounded,
-                        "reported tangential force [N/m]");
-        }
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus::conformance {
 
@@ -14,6 +15,16 @@ std::vector<HeldBody> flat_on_flat() {
 std::vector<HeldBody> corner_in_flat() {
   const double high = 0.5 * std::sqrt(3.0);
   return {box(-1, -1, 1, 0), held({{0, -2e-3}, {0.5, high}, {-0.5, high}})};
+}
+
+std::vector<Setup> setups() {
+  return {{"a block 1 mm deep in a base", flat_on_flat()},
+          {"a corner of 60 degrees 2 mm deep in a side", corner_in_flat()}};
+}
+
+Values undamped_with_friction(double angle) {
+  return with(undamped_interface(), {{"friction_angle", angle},
+                                     {"friction_coefficient", std::tan(angle * std::numbers::pi / 180)}});
 }
 
 double scale_of(const Subject& subject) {

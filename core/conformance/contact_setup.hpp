@@ -14,6 +14,17 @@ std::vector<HeldBody> flat_on_flat();
 /// A corner of 60 degrees, 2 mm deep in a flat: its contact length is proportional to its depth.
 std::vector<HeldBody> corner_in_flat();
 
+/// Bodies that meet, and what they are called.
+struct Setup {
+  const char* name;
+  std::vector<HeldBody> bodies;
+};
+/// The flat and the corner above.
+std::vector<Setup> setups();
+
+/// Undamped, with the friction angle in degrees and the coefficient that goes with it.
+Values undamped_with_friction(double angle);
+
 /// Force per depth of the flat contact, N/m per metre of thickness: the measure of all round-off. A
 /// coordinate that is rounded by 1e-15 m is worth 1e-15 of it in force.
 double scale_of(const Subject& subject);
