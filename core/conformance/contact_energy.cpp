@@ -89,16 +89,19 @@ void check_cycles(const Subject& subject, Trial& trial) {
   const double rounded = 1e-15 * scale_of(subject);
   for (const Setup& setup : setups()) {
     for (const Cycle& cycle : cycles) {
-      DrivenLaw law(*subject.component, undamped_with_friction(cycle.angle));
-      law.bodies = setup.bodies;
-      DrivenPath path(law);
-      for (int round = 1; round <= 2; ++round) {
-        trial.feed(fmt::format("{}, {}, friction angle {:g} degrees, undamped, round {}", setup.name,
-                               cycle.name, cycle.angle, round));
-        for (const Vec2 to : cycle.legs) path.go(to, 200);
-        trial.at_most(
-            -path.work, 2e-5 * path.turned_over + rounded * path.way,
-            fmt::format("energy won [J/m] in {} rounds, of {:.9g} turned over", round, path.turned_over));
+      for (const double share : {0.0, 0.5, 1.0}) {
+        DrivenLaw law(*subject.component, undamped_with_friction(cycle.angle));
+        law.bodies = setup.bodies;
+        law.master_share = share;
+        DrivenPath path(law);
+        for (int round = 1; round <= 2; ++round) {
+          trial.feed(fmt::format("{}, {}, friction angle {:g} degrees, undamped, master share {:g}, round {}",
+                                 setup.name, cycle.name, cycle.angle, share, round));
+          for (const Vec2 to : cycle.legs) path.go(to, 200);
+          trial.at_most(
+              -path.work, 2e-5 * path.turned_over + rounded * path.way,
+              fmt::format("energy won [J/m] in {} rounds, of {:.9g} turned over", round, path.turned_over));
+        }
       }
     }
   }

@@ -106,14 +106,17 @@ TEST_CASE("a law that favours, depends or pulls fails in the one check that is m
                       {"lets_go", "friction"},
                       {"lies_about_gaps", "gap"},
                       {"loses_moment", "balance"},
-                      {"pulls", "tension"}});
+                      {"pulls", "tension"},
+                      {"rubs_forward", "friction"}});
 }
 
 TEST_CASE("a law that is wrong about energy or stiffness fails in the one check that is meant for it",
           "[conformance][slow_sanitised]") {
-  expect_one_failure({{"books_no_loss", "account"},
+  expect_one_failure({{"books_as_both", "account"},
+                      {"books_no_loss", "account"},
                       {"hides_dashpots", "account"},
                       {"creates_energy", "cycles"},
+                      {"gains_as_master", "cycles"},
                       {"has_no_potential", "potential"},
                       {"kicks_at_joints", "joint"},
                       {"knows_one_step", "account"},

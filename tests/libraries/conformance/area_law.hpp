@@ -88,7 +88,7 @@ class AreaLaw : public talus::ContactModel {
   virtual double depth(double measured) const { return measured; }
   virtual double stored(const Seen&, double energy) const { return energy; }
   virtual double squeeze() const { return 0; }  ///< share of the load, along the longest stretch
-  virtual double loss(double work, double stored_more) const { return work - stored_more; }
+  virtual double loss(const Seen&, double work, double stored_more) const { return work - stored_more; }
   virtual bool apart(const ContactBatch&, const ContactLoads&, const Seen&, talus::PairReport&) const {
     return false;
   }
@@ -165,7 +165,7 @@ class AreaLaw : public talus::ContactModel {
     const Seen seen = look(batch, pair, position);
     const double old = kept(batch, pair), held = seen.spring > 0 ? old * old / (2 * seen.spring) : 0;
     if (!(seen.area > 0)) {
-      report.slip_loss = loss(0, -held);
+      report.slip_loss = loss(seen, 0, -held);
       apart(batch, loads, seen, report);
       return;
     }
@@ -196,9 +196,9 @@ class AreaLaw : public talus::ContactModel {
       }
       const double stored = force * force / (2 * seen.spring);
       report.stored += stored;
-      report.slip_loss = loss(-(old + force) / 2 * slip, stored - held);
+      report.slip_loss = loss(seen, -(old + force) / 2 * slip, stored - held);
     } else {
-      report.slip_loss = loss(0, -held);
+      report.slip_loss = loss(seen, 0, -held);
     }
     for (int body = 0; body < 2 && seen.longest_stretch[body] > 0; ++body) {
       const Piece& piece = seen.longest[body];

@@ -10,7 +10,7 @@ class BooksNoLoss final : public AreaLaw {
   using AreaLaw::AreaLaw;
 
  private:
-  double loss(double /*work*/, double /*stored_more*/) const override { return 0; }
+  double loss(const Seen&, double /*work*/, double /*stored_more*/) const override { return 0; }
 };
 
 constexpr talus::Component components[] = {area_law<BooksNoLoss>("books_no_loss")};
