@@ -83,8 +83,8 @@ TEST_CASE("the components that ship keep to what is due of them", "[conformance]
 TEST_CASE("check-plugin passes a right law, material and cover in each of their checks",
           "[conformance][slow_sanitised]") {
   const Scratch scratch;
-  for (const auto& [library, checks] :
-       {std::pair{"right", 25}, std::pair{"right_rock", 11}, std::pair{"right_fan", 7}}) {
+  for (const auto& [library, checks] : {std::pair{"right", 25}, std::pair{"right_damped", 24},
+                                        std::pair{"right_rock", 11}, std::pair{"right_fan", 7}}) {
     const Call right = call_talus(scratch.folder(), {"check-plugin", spoilt(library)});
     INFO(right.out << right.err);
     CHECK(right.code == 0);
@@ -113,8 +113,10 @@ TEST_CASE("a law that favours, depends or pulls fails in the one check that is m
 TEST_CASE("a law that is wrong about energy or stiffness fails in the one check that is meant for it",
           "[conformance][slow_sanitised]") {
   expect_one_failure({{"books_as_both", "account"},
+                      {"books_no_damping", "account"},
                       {"books_no_loss", "account"},
                       {"hides_dashpots", "account"},
+                      {"overstates_damping", "account"},
                       {"creates_energy", "cycles"},
                       {"gains_as_master", "cycles"},
                       {"has_no_potential", "potential"},
