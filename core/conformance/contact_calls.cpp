@@ -151,7 +151,15 @@ void check_split(const Subject& subject, Trial& trial) {
   trial.feed(fmt::format("{} pairs with and without a place for contact reports", count));
   TakenLoads unseen(batch, 0xFF);
   law.evaluate(batch.view(), unseen.view(false));
-  expect_same_bits(trial, difference_of(batch, whole, unseen, false));
+  expect_same_bits(trial, difference_of(batch, whole, unseen, {.reports = false}));
+
+  trial.feed(
+      fmt::format("{} pairs, and the same behind a body of two pieces that meets none of them", count));
+  DrivenLaw behind(*subject.component);
+  behind.bodies = {held({{-9, 0}, {-8, 0}, {-8, 0.5}, {-8.5, 0.5}, {-8.5, 1}, {-9, 1}})};
+  fill_with_pairs(behind);
+  expect_same_bits(trial,
+                   difference_of(batch, whole, call(behind.law(), behind.given()), {.history = false}));
 
   trial.feed(fmt::format("{} pairs in one call, and in two threads at once, 10 times", count));
   const GivenBatch halves[] = {only(batch, every_second(batch, 0)), only(batch, every_second(batch, 1))};

@@ -14,7 +14,7 @@ bool same_number(double p, double q) {
 
 /// First difference between what two calls say of pair i, in words.
 std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size_t i, const TakenLoads& p,
-                                              const TakenLoads& q, bool with_reports) {
+                                              const TakenLoads& q, const Compared& compared) {
   std::optional<std::string> found;
   const auto compare = [&](const std::string& what, double here, double there) {
     if (!found && !same_number(here, there))
@@ -40,11 +40,11 @@ std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size
   }
   const std::uint32_t kept = std::min(one.contact_count, pair.slot_capacity);
   for (std::uint32_t c = 0; c < kept; ++c) {
-    for (std::uint32_t k = 0; k < batch.doubles_per_contact; ++k) {
+    for (std::uint32_t k = 0; compared.history && k < batch.doubles_per_contact; ++k) {
       const std::size_t at = std::size_t{pair.slot_start + c} * batch.doubles_per_contact + k;
       compare("history", p.history[at], q.history[at]);
     }
-    if (!with_reports) continue;
+    if (!compared.reports) continue;
     const ContactReport &here = p.reports[pair.slot_start + c], &there = q.reports[pair.slot_start + c];
     compare("report px", here.px, there.px);
     compare("report tx", here.tx, there.tx);
@@ -55,21 +55,23 @@ std::optional<std::string> difference_of_pair(const GivenBatch& batch, std::size
 }  // namespace
 
 std::optional<std::string> difference_of(const GivenBatch& batch, const TakenLoads& p, const TakenLoads& q,
-                                         bool with_reports) {
+                                         const Compared& compared) {
   for (const std::uint32_t i : batch.active) {
-    if (auto found = difference_of_pair(batch, i, p, q, with_reports)) return found;
+    if (auto found = difference_of_pair(batch, i, p, q, compared)) return found;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> difference_of(const Evaluation& p, const Evaluation& q) {
+std::optional<std::string> difference_of(const Evaluation& p, const Evaluation& q, const Compared& compared) {
   std::optional<std::string> found;
   const auto compare = [&](const std::string& what, double here, double there) {
     if (!found && !same_number(here, there))
       found = fmt::format("{}: {:.17g} and {:.17g}", what, here, there);
   };
   compare("contacts", static_cast<double>(p.contacts.size()), static_cast<double>(q.contacts.size()));
-  compare("doubles of history", static_cast<double>(p.history.size()), static_cast<double>(q.history.size()));
+  if (compared.history)
+    compare("doubles of history", static_cast<double>(p.history.size()),
+            static_cast<double>(q.history.size()));
   for (std::size_t i = 0; i < p.forces.size() && !found; ++i) {
     compare(fmt::format("force x on body {}", i), p.forces[i].force.x, q.forces[i].force.x);
     compare(fmt::format("force y on body {}", i), p.forces[i].force.y, q.forces[i].force.y);
@@ -90,7 +92,7 @@ std::optional<std::string> difference_of(const Evaluation& p, const Evaluation& 
     compare(fmt::format("tangential force x of contact {}", i), here.tx, there.tx);
     compare(fmt::format("tangential force y of contact {}", i), here.ty, there.ty);
   }
-  for (std::size_t i = 0; i < p.history.size() && !found; ++i)
+  for (std::size_t i = 0; compared.history && i < p.history.size() && !found; ++i)
     compare(fmt::format("history {}", i), p.history[i], q.history[i]);
   return found;
 }

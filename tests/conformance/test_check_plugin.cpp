@@ -137,6 +137,7 @@ TEST_CASE("a law that does not keep to the interface fails in the one check that
                       {"divides_by_step", "degenerate"},
                       {"ignores_reset", "reset"},
                       {"loads_cuts", "strips"},
+                      {"mistakes_bodies", "split"},
                       {"prepares_too_much", "writes"},
                       {"reads_past", "reads"},
                       {"refuses_without_words", "parameters"},
