@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace talus::conformance {
@@ -24,7 +25,12 @@ void Trial::feed(std::string_view words) {
 void Trial::at_most(double value, double bound, std::string_view what) {
   ++notes_->cases;
   if (value <= bound || failed()) return;
-  due(false, fmt::format("{}: {:.9g}", what, value), fmt::format("at most {:.9g}", bound));
+  const std::string found = fmt::format("{}: {:.9g}", what, value);
+  if (std::isnan(bound)) {  // it was measured by what is no number
+    due(false, found + ", against what is no number", "finite numbers");
+    return;
+  }
+  due(false, found, fmt::format("at most {:.9g}", bound));
 }
 
 void Trial::due(bool holds, std::string_view found, std::string_view due) {
