@@ -5,6 +5,7 @@
 namespace talus::conformance {
 
 // What holds between calls, whatever the forces are.
+void check_settling(const Subject& subject, Trial& trial);
 void check_restore(const Subject& subject, Trial& trial);
 void check_reset(const Subject& subject, Trial& trial);
 void check_split(const Subject& subject, Trial& trial);

@@ -19,6 +19,7 @@ std::span<const Check> contact_checks() {
       {"tension", "bodies do not pull at each other", check_tension},
       {"interfaces", "a pair has the parameters of its own interface", check_interfaces},
       {"friction", "|T| <= μ P, and no less where bodies slide", check_friction_limit},
+      {"settling", "without friction and bonds a scene that settles has the same forces", check_settling},
       {"reports", "reports say what the loads are, and how deep bodies are in each other", check_reports},
       {"potential", "force = -∂Π/∂q in every coordinate of both bodies", check_potential},
       {"account", "what is put in is stored or booked as lost", check_account},
