@@ -129,7 +129,7 @@ class CornerFinder {
     const double sought = std::max(contact.depth, bond_reach.held);
     double edge = vertex.shorter;
     if (!vertex.divided && (nearest > edge || sought > flush * edge))
-      edge = shorter_edge(own, v);   // or it need not be known
+      edge = shorter_edge(Vertices(pieces, contact.vertex_body), own, v);  // or it need not be known
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
@@ -150,10 +150,39 @@ class CornerFinder {
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);
     if (at_cut && !contact.past_cut && is_before_another(pieces, at, outward, contact)) return;
-    contact.tributary = tributary_length(own, other, v, contact.side);
+    contact.tributary = tributary_length(pieces, contact);
+    if (contact.depth > bond_reach.held && !own.is_strip()) {
+      const double bears = share_that_bears(own, other, vertex, contact);
+      if (!(bears > 0)) return;
+      contact.tributary *= bears;
+    }
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
+  }
+
+  /// A vertex that is past the end of its side bears only where an edge of its own goes on into the other
+  /// body: by how deep that comes in, over its own depth. At a sharp tip it does not come in at all.
+  static double share_that_bears(const Piece& own, const Piece& other, const Vertex& vertex,
+                                 const CornerContact& contact) {
+    const std::uint32_t v = contact.vertex;
+    const Point at = own.at(v), edges[] = {-1.0 * vertex.before, vertex.after};
+    const double lengths[] = {vertex.divided ? vertex.shorter : own.length(own.previous(v)),
+                              vertex.divided ? vertex.shorter : own.length(v)};
+    double least = 1;
+    for (std::uint32_t k = 0; k < other.size(); ++k) {
+      const double past = -other.depth(k, at);
+      if (k == contact.side || !other.real(k) || !(past > 0)) continue;
+      double most = 0;
+      for (int i = 0; i < 2; ++i) {
+        const double inward = -dot(edges[i], other.normal(k));
+        if (!(inward * lengths[i] > past)) continue;
+        const double depth = other.depth(contact.side, at + past / inward * edges[i]);
+        most = std::max(most, std::min(1.0, depth / contact.depth));
+      }
+      least = std::min(least, most);
+    }
+    return least;
   }
 
   /// Whether a vertex at the cut of a piece, not flush with the end of its side, is before a side that faces
@@ -181,9 +210,11 @@ class CornerFinder {
   /// Where the body points at a vertex. A short edge beside it says nothing of that.
   static Point outward_of(const Piece& own, const Vertex& vertex, std::uint32_t v) {
     if (own.is_strip() || vertex.divided) return vertex.outward();
-    const std::uint32_t before = own.previous(v);
-    if (is_short(own, before)) return own.tangent(own.previous(before)) - vertex.after;
-    if (is_short(own, v)) return vertex.before - own.tangent(own.next(v));
+    const std::uint32_t before = own.previous(v), two_before = own.previous(before), after = own.next(v);
+    if (is_short(own, before) && own.real(two_before) && !is_short(own, two_before))
+      return own.tangent(two_before) - vertex.after;
+    if (is_short(own, v) && own.real(after) && !is_short(own, after))
+      return vertex.before - own.tangent(after);
     return vertex.outward();
   }
 
@@ -243,7 +274,7 @@ class CornerFinder {
   }
 
   /// m, of the edges that meet in a vertex, each with what lies straight beyond it; short ones left out.
-  static double shorter_edge(const Piece& own, std::uint32_t v) {
+  static double shorter_edge(const Vertices& vertices, const Piece& own, std::uint32_t v) {
     if (own.is_strip()) return own.length(0);
     std::uint32_t before = own.previous(v), after = v;
     // Mostly the shorter one ends where it is.
@@ -255,7 +286,7 @@ class CornerFinder {
     if (is_short(own, before)) before = own.previous(before);
     if (is_short(own, after)) after = own.next(after);
     const auto length = [&](std::uint32_t edge) {
-      const auto [low, high] = straight_run(own, edge);
+      const auto [low, high] = vertices.straight_run(own, edge);
       return high - low;
     };
     return std::min(length(before), length(after));
@@ -263,15 +294,17 @@ class CornerFinder {
 
   /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
   /// of a flat contact carry α_N L together.
-  static double tributary_length(const Piece& own, const Piece& other, std::uint32_t v, std::uint32_t side) {
+  static double tributary_length(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+    const std::uint32_t body = contact.vertex_body, side = contact.side;
+    const Piece &own = pieces[contact.entry].piece[body], &other = pieces[contact.entry].piece[1 - body];
     const Point along = other.tangent(side);
     // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
     if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
-    const std::uint32_t edge = flatter_edge(own, v, along);
-    const auto [own_low, own_high] = straight_run(own, edge);
+    const std::uint32_t edge = flatter_edge(own, contact.vertex, along);
+    const auto [own_low, own_high] = Vertices(pieces, body).straight_run(own, edge);
     const double start = dot(along, own.at(edge) + own_low * own.tangent(edge) - other.at(side));
     const double end = dot(along, own.at(edge) + own_high * own.tangent(edge) - other.at(side));
-    const auto [low, high] = straight_run(other, side);
+    const auto [low, high] = Vertices(pieces, 1 - body).straight_run(other, side);
     const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
     // A side that stands upright on the other, at the end of a base, carries nothing there.
     if (own.is_strip()) return std::max(shadow, 0.0) / 2;
@@ -280,21 +313,6 @@ class CornerFinder {
 
   /// A twentieth of the shorter edge: for a corner that meets a corner, or comes alone.
   static double least_tributary(double own, double other) { return 0.05 * std::min(own, other); }
-
-  /// The straight stretch of boundary a side belongs to, along its tangent from its start: collinear
-  /// neighbours count as one, so that passing from one to the next changes nothing.
-  static std::pair<double, double> straight_run(const Piece& piece, std::uint32_t side) {
-    double low = 0, high = piece.length(side);
-    for (std::uint32_t k = piece.next(side); k != side && piece.real(k); k = piece.next(k)) {
-      if (dot(piece.tangent(k), piece.tangent(side)) < straight) break;
-      high += piece.length(k);
-    }
-    for (std::uint32_t k = piece.previous(side); k != side && piece.real(k); k = piece.previous(k)) {
-      if (dot(piece.tangent(k), piece.tangent(side)) < straight) break;
-      low -= piece.length(k);
-    }
-    return {low, high};
-  }
 };
 
 }  // namespace talus::vertex_edge

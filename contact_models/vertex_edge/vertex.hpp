@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace talus::vertex_edge {
 
@@ -52,6 +53,18 @@ class Vertices {
     return std::nullopt;
   }
 
+  /// The straight stretch of boundary that a side belongs to, along its tangent from its start: collinear
+  /// neighbours count as one, also beyond a cut, so that passing from one to the next changes nothing.
+  std::pair<double, double> straight_run(const Piece& own, std::uint32_t side) const {
+    const Edge start{&own, side};
+    double low = 0, high = start.length();
+    for (auto at = neighbour(start, true); at && goes_on(start, *at); at = neighbour(*at, true))
+      high += at->length();
+    for (auto at = neighbour(start, false); at && goes_on(start, *at); at = neighbour(*at, false))
+      low -= at->length();
+    return {low, high};
+  }
+
  private:
   struct Edge {
     const Piece* piece;
@@ -60,6 +73,19 @@ class Vertices {
     Point tangent() const { return piece->tangent(side); }
     double length() const { return piece->length(side); }
   };
+
+  /// The next side of the boundary, counter-clockwise or the other way; nothing where it is not known.
+  std::optional<Edge> neighbour(Edge edge, bool forward) const {
+    const Piece& piece = *edge.piece;
+    const std::uint32_t side = forward ? piece.next(edge.side) : piece.previous(edge.side);
+    if (piece.is_cut(side)) return follow(piece, forward ? side : edge.side, side, forward);
+    return piece.real(side) ? std::optional(Edge{&piece, side}) : std::nullopt;
+  }
+
+  static bool goes_on(const Edge& from, const Edge& to) {
+    return dot(from.tangent(), to.tangent()) >= straight &&
+           !(from.piece->first_corner() == to.piece->first_corner() && from.side == to.side);
+  }
 
   static std::optional<Vertex> turning(Edge before, Edge after, std::uint32_t name, bool divided) {
     if (!(dot(before.tangent(), after.tangent()) < straight)) return std::nullopt;

@@ -283,7 +283,9 @@ class VertexEdge final : public ContactModel {
       own.side = side;
       return own;
     }
-    SpringHistory history{1.0 + contact.key, 0, 0, batch.bonds_form ? 1.0 : 0.0, 0, 0, side, 0};
+    // A vertex that is bonded to one face of a corner is not to the other across a gap.
+    const bool bonds = batch.bonds_form && contact.depth > -1e-9 * contact.tributary;
+    SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0};
     if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
     for (const CornerContact& other : work.found) {
       if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)

@@ -40,6 +40,8 @@ void Simulation::State::exchange_clock(Archive& archive) {
   archive(started);
   archive(output);
   archive(plan);
+  archive(beside_stage);
+  archive(was_beside_stage);
   archive(limit);
   archive(planned_with);
   archive(critical);

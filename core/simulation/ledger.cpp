@@ -40,8 +40,7 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     initial_ += l.residual - missed;
     l.residual = missed;
   }
-  step_changed_ = stage_began_ && step_changes;
-  stage_began_ = stage_begins || (stage_began_ && !step_changes);
+  step_changed_ = step_changes;
   l.throughput = std::max({l.throughput, initial_, stored() + lost(), std::abs(l.external_work)});
 }
 

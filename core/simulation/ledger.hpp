@@ -12,9 +12,10 @@ namespace talus {
 class LedgerKeeper {
  public:
   /// At t_n, once all parts of the step are known. Where a stage begins t_n is booked twice: what then
-  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: the step
-  /// ahead is not as long as that behind. K_n is by ⅛ Δt² aᵀ M a less than ½ vᵀ M v, which is no matter while
-  /// steps are alike; where those from a stage to the next output are others, it is taken up once.
+  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: to or from
+  /// the stretch between a stage and an output, whose steps are of another length. K_n is by ⅛ Δt² aᵀ M a less
+  /// than ½ vᵀ M v, which is no matter while steps are alike; a is another after the stage, so that the two
+  /// changes do not cancel.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work, bool stage_begins, bool step_changes);
 
@@ -49,7 +50,7 @@ class LedgerKeeper {
   double initial_ = 0;  ///< J/m, kinetic and stored at t = 0
   double damping_ahead_ = 0, work_ahead_ = 0;
   double floor_ = 0;
-  bool started_ = false, stage_began_ = false, step_changed_ = false;
+  bool started_ = false, step_changed_ = false;
 };
 
 }  // namespace talus

@@ -151,7 +151,8 @@ void Simulation::State::forces() {
   profile.enter(Phase::books);
   check_materials(work.kinetic);
   ledger.book(contact_totals, strain_energy, loads, work, stage_begins,
-              conditions.dt_behind != conditions.dt_ahead);
+              (beside_stage || was_beside_stage) && conditions.dt_behind > 0 && conditions.dt_ahead > 0 &&
+                  conditions.dt_behind != conditions.dt_ahead);
   Sleep::Taken taken{};
   if (may_sleep_now) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
@@ -325,6 +326,7 @@ void Simulation::State::make_plan(double end) {
     throw NumericalTrouble(words);
   }
   const auto steps = static_cast<std::uint64_t>(wanted);
+  was_beside_stage = std::exchange(beside_stage, stage_begins || end < target);
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   // Of fixed steps that which limits the largest: what is left over at the end may be short.
   if (scene.time.dt && plan.dt > summary.dt)

@@ -61,6 +61,8 @@ struct Simulation::State {
     double target = 0;  ///< s, the output time; later than `end` where a stage begins before
   };
   Plan plan;
+  bool beside_stage = false,
+       was_beside_stage = false;  ///< whether the plan begins or ends at one; that before
   enum class Limit { none, scene, speed, critical, output };
   Limit limit = Limit::none;    ///< what made the step of the plan as short as it is
   CriticalStep planned_with{};  ///< the bound then

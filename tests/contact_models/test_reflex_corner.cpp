@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
 
 using namespace talus;
 
@@ -170,79 +168,4 @@ TEST_CASE("reports count what a jump of the stiffness does", "[laws][output]") {
   const Vec2 force = contact_sum(simulation.contacts(), 1, {0, 0}).force;
   CHECK(force.y == Approx(1e-3 * (1e8 + 1e7) / 2).epsilon(1e-6));
   CHECK(force.x == Approx(-(1e8 - 1e7) * 1e-6 / 2).epsilon(1e-3));
-}
-
-TEST_CASE("a vertex past the cut of a concave body stands on nothing", "[laws][vertex_edge]") {
-  // B touches A, or lies above it, where a cut of A ends: of the piece beyond, the corner sees the far side
-  // of the notch, also while bonds are held, which then reach any distance.
-  using Points = std::vector<Vec2>;
-  const auto polygon = [](const Points& points, double lifted) {
-    std::string text;
-    for (const Vec2& p : points)
-      text += fmt::format("{}[{:.17g}, {:.17g}]", text.empty() ? "" : ", ", p.x + lifted, p.y);
-    return text;
-  };
-  struct Case {
-    Points a, b;
-    double lifted;
-    const char* bond;
-  };
-  const Points deep{{0.5, -2}, {1.5, 0}, {1, 2}, {0.6, 0.5}, {0.5, 0.5}}, slim{{1.5, 0}, {2.5, 2}, {1, 2}},
-      shallow{{-3, -2}, {0.5, -2}, {1.5, 0}, {1, 2}, {1.1, 0.25}, {-3, 0.25}}, wide{{1.5, 0}, {4, 2}, {1, 2}},
-      arrow{{0, 0}, {3, 0}, {3, 4}, {0, 4}, {1, 2}}, hull{{0, 0}, {1, 2}, {0, 4}, {-2, 4}, {-2, 0}};
-  // Its cut ends a millimetre beside the corner that the other touches.
-  const Points quadrilateral{{6.549921139513269, 2.237697905544272},
-                             {6.9521817554286525, 4.060608109365036},
-                             {5.5656987984883175, 4.4004169793849375},
-                             {5.163438182572934, 2.577506775564172}},
-      hooked{{6.9521817554286525, 4.060608109365036}, {7.024928625040901, 4.390272525083234},
-             {6.5072911056252405, 4.963656067167771}, {6.163528385221413, 5.930388536141595},
-             {6.175892267912417, 6.172365555702733},  {5.967959414403701, 6.223327183205703},
-             {5.5656987984883175, 4.4004169793849375}};
-  const char *none = R"("cohesion": 0, "tensile_strength": 0)",
-             *strong = R"("cohesion": 5.9e5, "tensile_strength": 1.77e5)";
-  for (const Case& given :
-       {Case{deep, slim, 0, none}, Case{deep, slim, 1e-3, none}, Case{shallow, wide, 0, none},
-        Case{arrow, hull, 0, none}, Case{arrow, hull, 0, strong}, Case{quadrilateral, hooked, 0, none}}) {
-    INFO(polygon(given.a, 0) << "; " << polygon(given.b, given.lifted) << "; " << given.bond);
-    WorkingScene text;
-    text.law = "vertex_edge";
-    text.interface =
-        std::string(R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 12,
-                                    "normal_damping": 0, "tangential_damping": 0, )") +
-        given.bond;
-    text.bodies = fmt::format(R"({{"name": "a", "material": "rock", "polygon": [{}]}},
-                                 {{"name": "b", "material": "rock", "polygon": [{}]}})",
-                              polygon(given.a, 0), polygon(given.b, given.lifted));
-    text.rest = R"("settle": {"duration": 0.002, "damping": 1},)";
-    text.time = R"({"end": 0.01, "dt": 5e-5})";
-    Simulation simulation(text.read(), {});
-    REQUIRE(simulation.settle());
-    while (simulation.advance()) {
-    }
-    for (const std::size_t body : {0, 1}) {
-      const Vec2 velocity = simulation.body_motion(body).velocity;
-      CHECK(std::hypot(velocity.x, velocity.y) < 1e-9);
-    }
-    CHECK(simulation.summary().largest_penetration < 1e-12);
-  }
-}
-
-TEST_CASE("a vertex beside a short edge does not see the far side of its neighbour", "[laws][vertex_edge]") {
-  for (const double cut : {3e-3, 1e-3, 1e-6}) {
-    for (const double apart : {0.0, 0.01}) {
-      INFO(cut << ", " << apart);
-      WorkingScene text;
-      text.law = "vertex_edge";
-      text.bodies = fmt::format(
-          R"({{"name": "a", "material": "rock", "polygon": [[-{0}, 0], [-{0}, -4], [1, -4], [1, -2], [0, 0]]}},
-             {{"name": "b", "material": "rock", "polygon": [[{1}, 0], [{2}, -2], [{2}, 0]]}})",
-          cut, apart, 1 + apart);
-      text.time = R"({"end": 0.01, "dt": 1e-4})";
-      const Simulation simulation = run_to_end(text);
-      CHECK(simulation.summary().largest_penetration < 1e-12);
-      const Vec2 velocity = simulation.body_motion(1).velocity;
-      CHECK(std::hypot(velocity.x, velocity.y) < 1e-9);
-    }
-  }
 }

@@ -214,5 +214,12 @@ TEST_CASE("steps of another length from a stage to the next output leave the bal
     text.output = R"({"history": 1e-3})";
     text.time = R"({"end": 0.2, "dt": 1e-3})";
     CHECK(run_to_end(text).summary().largest_residual_share < 1e-9);
+
+    // Nor do those that change nothing, while it falls.
+    text.bodies = box("falls", 0, 30, 1, 32) + "," + box("floor", -5, -1, 5, 0, R"("fixed": true)");
+    text.rest = R"("stages": [{"name": "one", "from": 0.0305, "set": {"/gravity": [0, -9.81]}},
+                              {"name": "two", "from": 0.0707, "set": {"/gravity": [0, -9.81]}},
+                              {"name": "three", "from": 0.0709, "set": {"/gravity": [0, -9.81]}}],)";
+    CHECK(run_to_end(text).summary().largest_residual_share < 1e-9);
   }
 }
