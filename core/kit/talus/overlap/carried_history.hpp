@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace talus::overlap {
@@ -134,38 +135,47 @@ class CarriedHistory {
   /// neighbours: the strips tell which is which as long as they touch. A strip that touches several pieces of
   /// a body may have several contacts, which place tells apart.
   void carry_to_same_strips() {
+    list_names(carried_, now_);
+    list_names(old_, then_);
     at_home_.clear();
-    told_.clear();
-    for (const FrictionHistory& old : old_) {
-      const std::ptrdiff_t now = named(carried_, old.strips);
-      at_home_.push_back(now > 0 ? 1 : 0);
-      told_.push_back(now == 1 && named(old_, old.strips) == 1 ? 1 : 0);
-    }
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < old_.size(); ++i) {
-      if (told_[i] == 0) {
-        at_home_[kept] = at_home_[i];
-        old_[kept++] = old_[i];
+    for (const FrictionHistory& old : old_) {
+      const auto now = named(now_, old.strips);
+      if (now.size() == 1 && named(then_, old.strips).size() == 1) {
+        add(1, old, carried_[now[0].contact]);
         continue;
       }
-      for (FrictionHistory& now : carried_) {
-        if (now.strips == old_[i].strips) add(1, old_[i], now);
-      }
+      at_home_.push_back(now.empty() ? 0 : 1);
+      old_[kept++] = old;
     }
     old_.resize(kept);
   }
 
-  /// How many of these are of the strips with this name.
-  static std::ptrdiff_t named(const std::vector<FrictionHistory>& contacts, double strips) {
-    return strips == 0 ? 0 : std::count_if(contacts.begin(), contacts.end(), [&](const FrictionHistory& one) {
-      return one.strips == strips;
-    });
+  /// Which strips a contact is of.
+  struct Named {
+    double strips;
+    std::uint32_t contact;
+    friend bool operator<(const Named& p, const Named& q) { return p.strips < q.strips; }
+  };
+
+  static void list_names(const std::vector<FrictionHistory>& contacts, std::vector<Named>& names) {
+    names.clear();
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].strips != 0) names.push_back({contacts[i].strips, i});
+    }
+    std::sort(names.begin(), names.end());
+  }
+
+  /// Those of the strips with this name.
+  static std::span<const Named> named(const std::vector<Named>& names, double strips) {
+    const auto [first, last] = std::equal_range(names.begin(), names.end(), Named{strips, 0});
+    return {first, last};
   }
 
   std::vector<FrictionHistory> carried_;
   std::vector<GroupSpan> spans_;
   std::vector<FrictionHistory> old_;  ///< in the end those that the strips did not tell
-  std::vector<char> told_;            ///< [old]
+  std::vector<Named> now_, then_;     ///< by their strips
   std::vector<char> at_home_;         ///< [old] whether its strips still touch
 };
 

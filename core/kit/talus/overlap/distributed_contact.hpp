@@ -253,6 +253,7 @@ class DistributedContact {
       cell.pressed_on_end += pressed * master.lever(cell.side, at);
     }
     for (Cell& cell : cells_) {
+      if (cell.interface.normal_damping == 0) continue;
       const Piece& master = cell.overlap->piece[cell.master];
       if (cell.pressed > 0) {
         cell.pressed_at =
@@ -269,10 +270,10 @@ class DistributedContact {
     may_push_.assign(finder_.overlaps().size(), {});
     for (std::uint32_t c = 0; c < cells_.size(); ++c) {
       Cell& cell = cells_[c];
+      if (cell.interface.normal_damping == 0) continue;
       const Piece& master = cell.overlap->piece[cell.master];
       const Piece& slave = cell.overlap->piece[1 - cell.master];
       cell.pressed_on_end = cell.pressed * master.lever(cell.side, cell.foot);
-      if (cell.interface.normal_damping == 0) continue;
       const double share = cell.master == 0 ? pair.master_share() : 1 - pair.master_share();
       const double viscosity =
           share * 2 * cell.interface.normal_damping *
