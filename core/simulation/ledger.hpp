@@ -12,10 +12,10 @@ namespace talus {
 class LedgerKeeper {
  public:
   /// At t_n, once all parts of the step are known. Where a stage begins t_n is booked twice: what then
-  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: to or from
-  /// the stretch between a stage and an output, whose steps are of another length. K_n is by ⅛ Δt² aᵀ M a less
-  /// than ½ vᵀ M v, which is no matter while steps are alike; a is another after the stage, so that the two
-  /// changes do not cancel.
+  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: to or
+  /// from the stretch between a stage and an output, whose steps are of another length. K_n is by ⅛ Δt² aᵀ M
+  /// a less than ½ vᵀ M v, which is no matter while steps are alike; a is another after the stage, so that
+  /// the two changes do not cancel.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work, bool stage_begins, bool step_changes);
 
