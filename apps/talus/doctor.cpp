@@ -22,8 +22,8 @@ namespace po = boost::program_options;
 constexpr std::size_t most_steps = 200000;
 constexpr double noticed = 0.01;  ///< share of the throughput
 
-/// Where the ledger first missed more than can be passed over, from energy.csv; a run that is stopped at the
-/// time of a row does not write it any more, so that the largest share of all may be in the record alone.
+/// Where the ledger first missed more than can be passed over, from energy.csv; of a run that is stopped
+/// between two rows the largest share of all may be in the record alone.
 void say_when_energy_was_lost(const std::filesystem::path& folder, double largest_of_all) {
   const Series series = read_series(folder / "energy.csv");
   const auto residual = series.column("residual [J/m]"), throughput = series.column("throughput [J/m]");

@@ -351,7 +351,7 @@ std::string Simulation::State::limiter() const {
 }
 
 void Simulation::State::remember_deepest() {
-  if (contact_totals.penetration <= summary.largest_penetration) return;
+  if (!(contact_totals.penetration > summary.largest_penetration)) return;  // also where it is no number
   summary.largest_penetration = contact_totals.penetration;
   deepest_pair = {contact_totals.deepest_a, contact_totals.deepest_b};
 }
