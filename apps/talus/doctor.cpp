@@ -56,8 +56,11 @@ nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
       throw InputError(fmt::format("'{}' holds several runs: name the folder of one in it", folder.string()));
   }
   auto record = read_run_record(folder);
-  fmt::print("{}: {} at t = {:.9g} s after {} steps\n", folder.string(), record.at("end").get<std::string>(),
-             record.at("t [s]").get<double>(), record.at("steps").dump());
+  const bool settled = !record.contains("settling_t [s]");
+  fmt::print("{}: {} at t = {:.9g} s{} after {} steps\n", folder.string(),
+             record.at("end").get<std::string>(),
+             record.at(settled ? "t [s]" : "settling_t [s]").get<double>(), settled ? "" : " of settling",
+             record.at(settled ? "steps" : "settle_steps").dump());
   if (record.contains("trouble")) fmt::print("{}\n", record.at("trouble").get<std::string>());
   for (const auto& warning : record.at("warnings")) fmt::print("warned: {}\n", warning.get<std::string>());
   return record;

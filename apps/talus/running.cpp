@@ -28,9 +28,9 @@ std::optional<double> seconds_of(const Usage& usage, const po::variables_map& gi
 void print_summary(const RunResult& result, const std::filesystem::path& folder) {
   const RunSummary& summary = result.summary;
   fmt::print("{} at {}: {} steps of at most {:.6g} s", name_of(result.end),
-             time_in_words(result, result.time), summary.steps, summary.dt);
+             time_in_words(result, result.time), result.steps(), summary.dt);
   if (!summary.dt_limiter.empty()) fmt::print(" ({})", summary.dt_limiter);
-  fmt::print("\n{:.3f} s in the steps, {:.3g} block-steps per second\n", result.stepping.wall,
+  fmt::print("\n{:.3f} s in the steps, {:.3g} block-steps per second\n", result.in_steps().wall,
              result.block_steps_per_second);
   if (summary.largest_penetration > 0) {
     fmt::print("largest overlap {:.4g} m ({})\n", summary.largest_penetration,
@@ -82,9 +82,9 @@ int code_of(const RunResult& result) {
 Log::Fields facts_of(const RunResult& result, const std::filesystem::path& folder) {
   const RunSummary& summary = result.summary;
   Log::Fields facts{{"t [s]", result.time},
-                    {"steps", summary.steps},
+                    {"steps", result.steps()},
                     {"dt [s]", summary.dt},
-                    {"wall [s]", result.stepping.wall},
+                    {"wall [s]", result.in_steps().wall},
                     {"largest_overlap [m]", summary.largest_penetration},
                     {"largest_residual_share", summary.largest_residual_share},
                     {"state_hash", result.state_hash},

@@ -47,9 +47,10 @@ bool settle(const Course& course) {
   if (order.before_settling && order.from == nullptr) order.before_settling(simulation);
   bool on = course.goes_on(), settled = false;
   while (on && !settled) {
-    const Stopwatch watch(order.clock);
-    settled = simulation.settle(course.pause());
-    result.settling += watch.elapsed();
+    {
+      const Timed settling(order.clock, result.settling);
+      settled = simulation.settle(course.pause());
+    }
     on = course.goes_on();
   }
   if (order.after_settling) order.after_settling(simulation);
@@ -59,15 +60,16 @@ bool settle(const Course& course) {
 void step_to_the_end(const Course& course) {
   const auto& [simulation, order, recorder, keeper, result] = course;
   do {
-    const Stopwatch stepping(order.clock);
-    const bool more = simulation.advance(course.pause());
-    result.stepping += stepping.elapsed();
-    if (!more) return;
+    {
+      const Timed stepping(order.clock, result.stepping);
+      if (!simulation.advance(course.pause())) return;
+    }
     if (!simulation.history_due()) continue;
-    const Stopwatch writing(order.clock);
-    recorder.record_due();
-    keeper.remember();
-    result.writing += writing.elapsed();
+    {
+      const Timed writing(order.clock, result.writing);
+      recorder.record_due();
+      keeper.remember();
+    }
     if (order.progress) order.progress(simulation.time());
     if (!(simulation.time() < simulation.scene().time.end)) return;
   } while (course.goes_on());
@@ -113,9 +115,10 @@ void conclude(Simulation& simulation, const RunOrder& order, Recorder& recorder,
   result.summary = simulation.summary();
   result.ledger = simulation.ledger();
   result.state_hash = simulation.state_hash();
-  if (result.stepping.wall > 0) {
+  const double wall = result.in_steps().wall;
+  if (wall > 0) {
     result.block_steps_per_second =
-        static_cast<double>(result.blocks) * static_cast<double>(result.summary.steps) / result.stepping.wall;
+        static_cast<double>(result.blocks) * static_cast<double>(result.steps()) / wall;
   }
   write_whole_file(order.folder / "run.json", run_record(simulation.scene(), order, result));
 }

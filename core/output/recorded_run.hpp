@@ -60,6 +60,10 @@ struct RunResult {
   RunSummary summary;
   EnergyLedger ledger;
   std::string state_hash;
+
+  /// Of the run, or of settling where it came no further.
+  std::uint64_t steps() const { return never_settled ? summary.settle_steps : summary.steps; }
+  Elapsed in_steps() const { return never_settled ? settling : stepping; }
 };
 
 /// "t = 0.5 s", and whether that is of settling.

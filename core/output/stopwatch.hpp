@@ -28,4 +28,17 @@ class Stopwatch {
   Elapsed start_;
 };
 
+/// Adds what passed while it lived to `sum`, also where that was cut short.
+class Timed {
+ public:
+  Timed(CpuClock clock, Elapsed& sum) : watch_(clock), sum_(sum) {}
+  ~Timed() { sum_ += watch_.elapsed(); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  Stopwatch watch_;
+  Elapsed& sum_;
+};
+
 }  // namespace talus

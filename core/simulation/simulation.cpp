@@ -123,6 +123,7 @@ bool Simulation::settle(const Pause& pause) {
   s.warn_of_unbalanced_settling();
   s.settling = false;
   s.settle_over = true;
+  s.summary.largest_penetration = 0;  // of the run, not of the stage before
   s.motion.stop();
   s.relaxation.forget();
   s.time = 0;

@@ -115,7 +115,7 @@ struct RunSummary {
   double dt = 0;                   ///< s, the largest step taken
   std::string dt_limiter;          ///< who limited it, in words
   double critical_dt = 0;          ///< s, bound of the scene
-  double largest_penetration = 0;  ///< m
+  double largest_penetration = 0;  ///< m, of the run; of settling until that is over
   std::string largest_penetration_pair;
   double largest_residual_share = 0;  ///< of the throughput
   std::vector<std::string> warnings;

@@ -87,7 +87,7 @@ void Simulation::State::step(double next_end) {
     make_plan(plan.target);
   }
   forces();
-  if (!settling) remember_deepest();
+  remember_deepest();
   check_step();
   profile.leave();
   if (settling) return;
@@ -187,13 +187,13 @@ void Simulation::State::evaluate_contacts() {
   check_law();
 }
 
-/// What rounding makes of a body at rest: its weight by 1e-12 of its width, and motion by 1e-14 of its width
+/// What rounding makes of a body at rest: its weight by 1e-12 of its width, and motion by 1e-13 of its width
 /// in a critical step.
 double Simulation::State::energy_floor() const {
   const double pull = std::sqrt(scene.gravity.x * scene.gravity.x + scene.gravity.y * scene.gravity.y);
   double floor = 0;
   for (const Body& body : model.bodies) {
-    const double speed = std::isfinite(critical.dt) ? 1e-14 * body.width / critical.dt : 0;
+    const double speed = std::isfinite(critical.dt) ? 1e-13 * body.width / critical.dt : 0;
     floor += body.mass * (1e-12 * pull * body.width + speed * speed);
   }
   return floor;

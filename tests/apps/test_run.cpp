@@ -282,6 +282,24 @@ TEST_CASE("numerical trouble is told, recorded and ends with its code", "[apps][
   CHECK(std::filesystem::exists(scratch / "out/small/frames/frame_000000.vtu"));
 }
 
+TEST_CASE("a run that is stopped while it settles tells of its settling", "[apps][run]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call =
+      call_talus(scratch.folder(), {"run", "small.json", "--set", R"(/settle={"duration": 9, "damping": 1})",
+                                    "--set", "/interfaces/0/normal_stiffness=1000"});
+  INFO(call.err);
+  CHECK(call.code == 4);
+  CHECK_THAT(call.out, Contains(" of settling: ") && !Contains(": 0 steps") && Contains("largest overlap"));
+  const auto record = json_of(scratch / "out/small/run.json");
+  CHECK(record["steps"] == 0);
+  CHECK(record["settle_steps"] > 0);
+  CHECK(record["largest_penetration [m]"] > 0);
+  CHECK(record["cost"]["settling"]["cpu [s]"] > 0);
+  CHECK_THAT(call_talus(scratch.folder(), {"doctor", "out/small"}).out,
+             Contains(fmt::format(" of settling after {} steps", record["settle_steps"].get<int>())));
+}
+
 TEST_CASE("a log for programs is one JSON object on each line", "[apps][log]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -181,6 +182,35 @@ TEST_CASE("what is missed while a scene settles is told, and a small step is not
     }
   };
   CHECK_THROWS_WITH(run(), Catch::Contains("hardly the step; `talus check-plugin`"));
+}
+
+TEST_CASE("what rounding makes of a wall at rest far from the origin is nothing to warn of",
+          "[simulation][ledger]") {
+  WorkingScene text;
+  text.cover = "block";
+  const Vec2 right{std::cos(0.576), std::sin(0.576)}, up{-right.y, right.x};
+  const auto brick = [&](const std::string& name, double left, double bottom, double right_end, double top) {
+    const auto corner = [&](double x, double y) {
+      return fmt::format("[{}, {}]", 1000 + x * right.x + y * up.x, 2000 + x * right.y + y * up.y);
+    };
+    return fmt::format(R"({{"name": "{}", "material": "rock", "polygon": [{}, {}, {}, {}])", name,
+                       corner(left, bottom), corner(right_end, bottom), corner(right_end, top),
+                       corner(left, top));
+  };
+  text.bodies = brick("floor", -1, -1, 6, 0) + R"(, "fixed": true})";
+  for (int row = 0; row < 4; ++row) {
+    for (int i = 0; i < 4; ++i) {
+      const double left = i + 0.5 * (row % 2), bottom = 0.5 * row;
+      text.bodies += ", " + brick(fmt::format("b{}{}", row, i), left, bottom, left + 1, bottom + 0.5) + "}";
+    }
+  }
+  text.time = R"({"end": 0.1})";
+  text.output = R"({"history": 0.001})";
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.ledger().throughput > 0);  // corners are rounded
+  CHECK(simulation.summary().warnings.empty());
 }
 
 TEST_CASE("the largest overlap of a run that is stopped is that which stopped it", "[simulation]") {

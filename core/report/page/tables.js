@@ -26,7 +26,7 @@ function tiles() {
   }
   add(
     'Time in the steps',
-    runs.map((run) => run.record.cost.stepping['cpu [s]']),
+    runs.map((run) => run.record.cost[neverSettled(run.record) ? 'settling' : 'stepping']['cpu [s]']),
     's of CPU',
   );
   add(
@@ -156,7 +156,7 @@ function provenance() {
   for (const run of runs)
     add(
       comparison ? run.label : 'run',
-      `${run.record.steps} steps of at most ${number(run.record['dt [s]'], 6)} s (${run.record.dt_limiter}), state ${run.record.state_hash}`,
+      `${stepsOf(run.record)} of at most ${number(run.record['dt [s]'], 6)} s (${run.record.dt_limiter}), state ${run.record.state_hash}`,
     );
   for (const warning of (comparison && comparison.warnings) || []) add('warning', warning);
   for (const run of runs)

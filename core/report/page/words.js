@@ -21,6 +21,10 @@ function number(value, digits = 4) {
     : String(+value.toPrecision(digits));
 }
 
+const neverSettled = (record) => 'settling_t [s]' in record;
+const stepsOf = (record) =>
+  neverSettled(record) ? `${record.settle_steps} steps of settling` : `${record.steps} steps`;
+
 function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
