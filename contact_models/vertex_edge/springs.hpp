@@ -38,8 +38,8 @@ inline double shear_strength(const SpringParameters& spring, double normal) {
 }
 
 /// Mohr–Coulomb with tension cut-off: no more than c l + N tan φ along the edge, no more than σ_t l across
-/// it. `viscous` is what a dashpot adds to the normal force. While the scene settles what has strength is
-/// held.
+/// it; a bond that slips is broken, but one without any strength along the edge only ties. `viscous` is what
+/// a dashpot adds to the normal force. While the scene settles what has strength is held.
 inline SpringForce spring_force(const SpringParameters& spring, double depth, double viscous,
                                 double old_tangential, double slip, bool held) {
   SpringForce force{spring.normal * depth, old_tangential - spring.tangential * slip, false, false};
@@ -50,7 +50,7 @@ inline SpringForce spring_force(const SpringParameters& spring, double depth, do
   if (held && !without_strength) return force;
   if (std::abs(force.tangential) > limit) {
     force.slips = true;
-    force.breaks = spring.cohesion > 0;
+    force.breaks = !without_strength;
     force.tangential =
         std::copysign(spring.friction * std::max(0.0, force.normal + viscous), force.tangential);
   }

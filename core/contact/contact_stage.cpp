@@ -122,15 +122,21 @@ void ContactStage::refuse_unsound_stiffness(const RegisteredComponent& law) cons
   }
 }
 
-void ContactStage::set_interfaces(const std::vector<std::vector<double>>& values) {
-  if (!law_) return;
-  interface_values_.clear();
+bool ContactStage::set_interfaces(const std::vector<std::vector<double>>& values) {
+  if (!law_) return false;
+  const std::vector<double> former = std::exchange(interface_values_, {});
   for (std::vector<double> row : values) {
     law_->prepare_interface(row.data());
     interface_values_.insert(interface_values_.end(), row.begin(), row.end());
   }
   interfaces_.value = interface_values_.data();
   loads_.renew();  // with other parameters a law may find contact where it finds none now
+  for (std::size_t at = 0; at < former.size(); at += interfaces_.parameter_count) {
+    const double one = law_->stiffness(&former[at], 1).tangential,
+                 other = law_->stiffness(&interface_values_[at], 1).tangential;
+    if (one > 0 && other > 0 && one != other) return true;
+  }
+  return false;
 }
 
 /// A fixed body is master; between moving bodies both roles count half, or a declared priority decides.

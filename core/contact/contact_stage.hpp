@@ -33,8 +33,9 @@ class ContactStage {
   const ContactModel* law() const { return law_.get(); }
   const Interfaces& interfaces() const { return interfaces_; }
 
-  /// Other parameters from now on, as [row][parameter] of the scene's interfaces.
-  void set_interfaces(const std::vector<std::vector<double>>& values);
+  /// Other parameters from now on, as [row][parameter] of the scene's interfaces. True when springs along an
+  /// interface that had some and still has are of another stiffness.
+  bool set_interfaces(const std::vector<std::vector<double>>& values);
 
   /// Seeks the candidates anew when something may have moved through the skin since the last search. The last
   /// call was `dt` ago, s, and bodies have moved at `speeds` since. True when who is near whom was found

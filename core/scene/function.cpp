@@ -77,6 +77,34 @@ double Function::integral(double time, Vec2 at) const {
   return sum;
 }
 
+Function Function::frozen(double time) const {
+  Function still = *this;
+  for (Product& product : still.terms) {
+    if (product.time) product.scale *= (*product.time)(time);
+    product.time.reset();
+  }
+  return still;
+}
+
+Function Function::integrated(double time) const {
+  Function still = *this;
+  for (Product& product : still.terms) {
+    product.scale *= product.time ? product.time->integral(time) : time;
+    product.time.reset();
+  }
+  return still;
+}
+
+Function operator+(Function p, const Function& q) {
+  p.terms.insert(p.terms.end(), q.terms.begin(), q.terms.end());
+  return p;
+}
+
+Function operator*(double factor, Function function) {
+  for (Product& product : function.terms) product.scale *= factor;
+  return function;
+}
+
 void Function::add_kinks(Vec2 from, Vec2 to, std::vector<double>& shares) const {
   const auto add = [&](const std::optional<Table>& table, double start, double end) {
     if (!table || start == end) return;

@@ -34,6 +34,7 @@ class Table {
   /// ∫ from 0 to `where`, exact but for rounding.
   double integral(double where) const;
   const std::vector<double>& points() const { return at_; }
+  bool operator==(const Table&) const = default;
 
  private:
   double antiderivative(double where) const;  ///< zero at the first point
@@ -48,6 +49,8 @@ class Table {
 struct Product {
   double scale = 0;
   std::optional<Table> time, x, y;
+
+  bool operator==(const Product&) const = default;
 };
 
 /// A number that may depend on time and on the position at the start in the scene's coordinates: a sum of
@@ -59,13 +62,19 @@ struct Function {
   double over(const StepSpan& span, Vec2 at) const;  ///< see Table::over()
   /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
   double integral(double time, Vec2 at) const;
+  Function frozen(double time) const;      ///< what it is then, at any time
+  Function integrated(double time) const;  ///< its integral from 0 to then, at any time
   bool zero() const { return terms.empty(); }
+  bool operator==(const Function&) const = default;
   bool varies_in_time() const {
     return std::any_of(terms.begin(), terms.end(), [](const Product& term) { return term.time.has_value(); });
   }
   /// Adds the shares of the way from one place to another at which a table over place has a point.
   void add_kinks(Vec2 from, Vec2 to, std::vector<double>& shares) const;
 };
+
+Function operator+(Function p, const Function& q);
+Function operator*(double factor, Function function);
 
 using VectorFunction = std::array<Function, 2>;
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -43,14 +44,47 @@ PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
   const std::size_t mistakes_before = reading.mistakes.count();
   one.displacement = free_vector_function(reading, section, table::of(table::prescribed, "displacement"));
   one.velocity = free_vector_function(reading, section, table::of(table::prescribed, "velocity"));
-  const bool nothing = !one.displacement[0] && !one.displacement[1] && !one.velocity[0] && !one.velocity[1];
-  if (nothing && reading.mistakes.count() == mistakes_before) {
+  if (!one.holds(0) && !one.holds(1) && reading.mistakes.count() == mistakes_before) {
     reading.mistakes.add(section.pointer(),
                          "nothing is prescribed: expected \"displacement\": [ux, uy] [m] or "
                          "\"velocity\": [vx, vy] [m/s] with a value on one axis at least");
   }
   section.finish();
   return one;
+}
+
+/// The support of a surface along an axis, if there is one.
+const PrescribedSurface* find_support(std::span<const PrescribedSurface> supports,
+                                      const PrescribedSurface& like, std::size_t axis) {
+  const auto found = std::ranges::find_if(supports, [&](const PrescribedSurface& one) {
+    return one.body == like.body && one.surface_class == like.surface_class && one.holds(axis);
+  });
+  return found == supports.end() ? nullptr : &*found;
+}
+
+/// What a support holds besides what its velocities have travelled, at a time.
+Function held_at(const PrescribedSurface& support, std::size_t axis, double time) {
+  const double share = support.ramp_share(axis, time);
+  Function held;
+  if (share > 0 && support.displacement[axis]) held = share * support.displacement[axis]->frozen(time);
+  return share < 1 ? held + (1 - share) * support.past[axis].former : held;
+}
+
+SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* before, std::size_t axis,
+                    double from) {
+  const auto travelled = [&](const PrescribedSurface& support) {
+    return support.velocity[axis] ? support.velocity[axis]->integrated(from) : Function{};
+  };
+  if (before == nullptr) return {from, {}, -1 * travelled(now)};
+  SupportPast past = before->past[axis];
+  const bool same_velocity = now.velocity[axis] == before->velocity[axis];
+  if (!same_velocity) past.travelled = past.travelled + travelled(*before) + -1 * travelled(now);
+  if (now.displacement[axis] == before->displacement[axis] && now.ramp == before->ramp) return past;
+  past.since = from;
+  past.former = held_at(*before, axis, from);
+  // A support that goes on by a velocity alone goes on from there.
+  if (!now.displacement[axis]) past.travelled = past.travelled + std::exchange(past.former, {});
+  return past;
 }
 
 SurfaceLoad read_surface_load(Reading& reading, Section& section) {
@@ -130,6 +164,16 @@ void read_prescribed(Reading& reading, Section& root) {
     resolved.push_back(section.resolved);
   });
   root.resolved["prescribed"] = std::move(resolved);
+}
+
+void continue_prescribed(std::vector<PrescribedSurface>& supports, std::span<const PrescribedSurface> before,
+                         double from) {
+  for (PrescribedSurface& support : supports) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (support.holds(axis))
+        support.past[axis] = past_of(support, find_support(before, support, axis), axis, from);
+    }
+  }
 }
 
 }  // namespace talus

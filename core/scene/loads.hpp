@@ -2,6 +2,9 @@
 
 #include "scene/reading.hpp"
 
+#include <span>
+#include <vector>
+
 namespace talus {
 
 /// "loads": forces on points of bodies.
@@ -15,5 +18,9 @@ void read_absorbing(Reading& reading, Section& root);
 
 /// "prescribed": motion of named surfaces.
 void read_prescribed(Reading& reading, Section& root);
+
+/// Supports of a stage go on from where those of the stage before have come to by its time, s.
+void continue_prescribed(std::vector<PrescribedSurface>& supports, std::span<const PrescribedSurface> before,
+                         double from);
 
 }  // namespace talus

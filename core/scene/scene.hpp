@@ -4,6 +4,7 @@
 #include "plugin/registry.hpp"
 #include "scene/function.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -93,6 +94,15 @@ struct SurfaceLoad {
 };
 
 /// Eqs. 18–20: λ∫(u − ū) over a named surface of a body, ū = displacement · min(t/ramp, 1) + ∫velocity dt.
+/// What a support takes over from the stages before, along an axis.
+struct SupportPast {
+  double since = 0;    ///< s, when the ramp begins
+  Function former;     ///< m, the displacement that the ramp leads away from
+  Function travelled;  ///< m, by former velocities, less what the present one has travelled until it begins
+};
+
+/// Holds a surface to ū = displacement · r + former · (1 − r) + ∫velocity dt + travelled, r the share of the
+/// ramp.
 struct PrescribedSurface {
   std::uint32_t body;
   std::uint32_t surface_class;
@@ -100,6 +110,12 @@ struct PrescribedSurface {
   double ramp;                                          ///< s
   std::array<std::optional<Function>, 2> displacement;  ///< m, per axis
   std::array<std::optional<Function>, 2> velocity;      ///< m/s, per axis; an axis with neither is free
+  std::array<SupportPast, 2> past;
+
+  bool holds(std::size_t axis) const { return displacement[axis] || velocity[axis]; }
+  double ramp_share(std::size_t axis, double time) const {
+    return ramp > 0 ? std::clamp((time - past[axis].since) / ramp, 0.0, 1.0) : 1.0;
+  }
 };
 
 /// A boundary that lets plane waves out: traction −ρ c_p v_n n − ρ c_s v_s s.

@@ -1,5 +1,6 @@
 #include "scene/stages.hpp"
 
+#include "scene/loads.hpp"
 #include "scene/overrides.hpp"
 #include "scene/tables.hpp"
 #include "text/nearest.hpp"
@@ -43,6 +44,10 @@ class StageReader {
     write(section);
     stage.settings = read(section);
     section.finish();
+    const std::vector<Stage>& stages = reading_.scene.stages;
+    continue_prescribed(stage.settings.prescribed,
+                        stages.empty() ? reading_.scene.prescribed : stages.back().settings.prescribed,
+                        stage.from);
     reading_.scene.stages.push_back(std::move(stage));
   }
 

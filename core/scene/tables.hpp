@@ -125,7 +125,9 @@ inline constexpr Parameter surface_load[] = {
 inline constexpr Parameter prescribed[] = {
     number("stiffness", "Pa/m", required, above_zero, unbounded,
            "Penalty that holds the surface (Eqs. 18-20)."),
-    number("ramp", "s", 0, 0, unbounded, "Time over which the displacement grows to its full size."),
+    number("ramp", "s", 0, 0, unbounded,
+           "Time over which the displacement grows to its full size, from the start or from the stage that "
+           "gives it."),
     number("displacement", "m", not_set, -unbounded, unbounded,
            "Displacement [ux, uy]; null leaves an axis free."),
     number("velocity", "m/s", not_set, -unbounded, unbounded, "Velocity [vx, vy]; null leaves an axis free."),

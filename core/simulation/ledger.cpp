@@ -6,7 +6,7 @@
 namespace talus {
 
 void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-                        const AccelerationWork& work, bool stage_begins, bool step_changes) {
+                        const AccelerationWork& work, const Occasion& occasion) {
   EnergyLedger& l = ledger_;
   const double before = stored() + lost(), missed = l.residual;
   l.kinetic = work.kinetic;
@@ -20,8 +20,10 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     started_ = true;
   } else {
     // Those of the step behind are found anew where a stage begins.
-    const Losses former = stage_begins ? last : Losses{};
-    l.friction_loss += since_last_.friction - former.friction;
+    const Losses former = occasion.stage_begins ? last : Losses{};
+    // A spring of other stiffness that bears the same force holds another energy, and a law that knows only
+    // how much it held would call the difference slip.
+    if (!occasion.springs_changed) l.friction_loss += since_last_.friction - former.friction;
     l.contact_damping_loss += since_last_.contact_damping - former.contact_damping;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += since_last_.material - former.material;
@@ -29,7 +31,7 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     // its last loss less than if it had acted over the whole step behind, as the material books it.
     l.material_loss -= (since_last_.viscous - last.viscous) / 4;
     l.external_work +=
-        stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
+        occasion.stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }
   loads.reset_work();
   damping_ahead_ = work.damping_loss_ahead;
@@ -40,7 +42,7 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     initial_ += l.residual - missed;
     l.residual = missed;
   }
-  step_changed_ = step_changes;
+  step_changed_ = occasion.step_changes;
   l.throughput = std::max({l.throughput, initial_, stored() + lost(), std::abs(l.external_work)});
 }
 

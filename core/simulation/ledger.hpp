@@ -11,13 +11,20 @@ namespace talus {
 /// Books the energies of each step and judges the balance.
 class LedgerKeeper {
  public:
-  /// At t_n, once all parts of the step are known. Where a stage begins t_n is booked twice: what then
-  /// differs is the work of who changed the parameters, the loads and the supports. `step_changes`: to or
-  /// from the stretch between a stage and an output, whose steps are of another length. K_n is by ⅛ Δt² aᵀ M
-  /// a less than ½ vᵀ M v, which is no matter while steps are alike; a is another after the stage, so that
-  /// the two changes do not cancel.
+  /// What is about t_n besides its forces.
+  struct Occasion {
+    bool stage_begins;     ///< t_n is booked for the second time, and differs by what the stage changed
+    bool springs_changed;  ///< it made springs along contacts stiffer or softer
+    /// To or from the stretch between a stage and an output, whose steps are of another length. K_n is by
+    /// ⅛ Δt² aᵀ M a less than ½ vᵀ M v, which is no matter while steps are alike; a is another after the
+    /// stage, so that the two changes do not cancel.
+    bool step_changes;
+  };
+
+  /// At t_n, once all parts of the step are known. Where a stage begins what then differs is the work of who
+  /// changed the parameters, the loads and the supports.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
-            const AccelerationWork& work, bool stage_begins, bool step_changes);
+            const AccelerationWork& work, const Occasion& occasion);
 
   /// So much kinetic energy, J/m, was just taken, as by global damping.
   void lose_kinetic(double taken);

@@ -10,11 +10,12 @@ namespace {
 
 /// ū along an axis, m.
 double target_of(const PrescribedSurface& prescribed, std::size_t axis, double time, Vec2 at) {
-  const double ramp = prescribed.ramp > 0 ? std::clamp(time / prescribed.ramp, 0.0, 1.0) : 1.0;
-  double target = 0;
-  if (prescribed.displacement[axis]) target += (*prescribed.displacement[axis])(time, at) * ramp;
+  const SupportPast& past = prescribed.past[axis];
+  const double share = prescribed.ramp_share(axis, time);
+  double target = past.former(time, at) * (1 - share);
+  if (prescribed.displacement[axis]) target += (*prescribed.displacement[axis])(time, at) * share;
   if (prescribed.velocity[axis]) target += prescribed.velocity[axis]->integral(time, at);
-  return target;
+  return target + past.travelled(time, at);
 }
 
 Vec2 between(Vec2 p, Vec2 q, double lever) {
@@ -72,6 +73,10 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
       for (const auto& along : *either) {
         if (along) functions.push_back(&*along);
       }
+    }
+    for (const SupportPast& past : prescribed_[i].past) {
+      functions.push_back(&past.former);
+      functions.push_back(&past.travelled);
     }
     visit_sides(scene, model, prescribed_[i].body, prescribed_[i].surface_class, functions,
                 [&](const SideShare& at) {
@@ -162,7 +167,7 @@ void Loads::apply_supports(MotionState& motion, double time) {
     const Vec2 moved = displacement_at(motion, point.at);
     std::array<double, 2> force{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (!prescribed.displacement[axis] && !prescribed.velocity[axis]) continue;
+      if (!prescribed.holds(axis)) continue;
       const double target = target_of(prescribed, axis, time, point.at.scene_point);
       const double error = (axis == 0 ? moved.x : moved.y) - target;
       stored_ += stiffness * error * error / 2;

@@ -150,9 +150,9 @@ void Simulation::State::forces() {
                                            patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
   profile.enter(Phase::books);
   check_materials(work.kinetic);
-  ledger.book(contact_totals, strain_energy, loads, work, stage_begins,
-              (beside_stage || was_beside_stage) && conditions.dt_behind > 0 && conditions.dt_ahead > 0 &&
-                  conditions.dt_behind != conditions.dt_ahead);
+  const bool step_changes = (beside_stage || was_beside_stage) && conditions.dt_behind > 0 &&
+                            conditions.dt_ahead > 0 && conditions.dt_behind != conditions.dt_ahead;
+  ledger.book(contact_totals, strain_energy, loads, work, {stage_begins, springs_changed, step_changes});
   Sleep::Taken taken{};
   if (may_sleep_now) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
@@ -161,7 +161,7 @@ void Simulation::State::forces() {
   last_gravity = pull;
   if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop(conditions);
   profile.enter(Phase::checks);
-  fresh = stage_begins = false;
+  fresh = stage_begins = springs_changed = false;
   to_be_seen = velocities_left = observed;
 }
 
@@ -231,7 +231,7 @@ void Simulation::State::begin_due_stages() {
   forces();
   plan.dt = ahead;
   stages_begun = begun;
-  enter_stage(next);
+  springs_changed = enter_stage(next);
   impose_at_once(model, mass, stage.supports, motion);
   speeds = blocks.follow(model, contacts.drift(), motion);  // the first step is bounded by them, too
   take_velocities_at_stage();
@@ -255,12 +255,13 @@ void Simulation::State::take_velocities_at_stage() {
   std::ranges::swap_ranges(motion.patch_velocity, velocities_at_stage.patches);
 }
 
-void Simulation::State::enter_stage(const StageSettings& next) {
+bool Simulation::State::enter_stage(const StageSettings& next) {
   stage = next;
-  contacts.set_interfaces(stage.interface_values);
+  const bool changed = contacts.set_interfaces(stage.interface_values);
   blocks.set_supports(stage.supports);
   votes = StepVote(scene, stage, model, contacts);
   loads = Loads(scene, stage, model);
+  return changed;
 }
 
 double Simulation::State::nominal_dt() const {

@@ -72,7 +72,8 @@ struct Simulation::State {
   std::vector<BodyMotion> start;
   std::vector<Vec2> start_displacement;  ///< [patch]
   std::size_t stages_begun = 0;
-  bool stage_begins = false;  ///< at t_n, for the coming forces()
+  // At t_n, for the coming forces().
+  bool stage_begins = false, springs_changed = false;
   struct {
     std::vector<BodyMotion> bodies;
     std::vector<Vec2> patches;  ///< [patch] m/s
@@ -116,7 +117,7 @@ struct Simulation::State {
   void take_velocities_at_stage();
   /// s of the step behind over whose second half the forces of t_n act.
   double pushed_behind() const { return stage_begins ? 0 : dt_behind; }
-  void enter_stage(const StageSettings& next);
+  bool enter_stage(const StageSettings& next);  ///< true when springs along contacts have other stiffness
   Vec2 gravity() const;
   StepSpan step_span() const;
   bool settled() const;

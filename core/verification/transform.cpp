@@ -40,11 +40,10 @@ void map_points(Scene& scene, const MapPoint& map) {
 
 /// A function of time, times a factor.
 Function times(Function function, double factor) {
-  for (Product& term : function.terms) {
+  for (const Product& term : function.terms) {
     if (term.x || term.y) throw std::logic_error("functions of place are not transformed");
-    term.scale *= factor;
   }
-  return function;
+  return factor * std::move(function);
 }
 
 /// Directions: (x, y) goes to (sx · x, sy · y), the two swapped before if `swapped`.

@@ -186,6 +186,27 @@ TEST_CASE("Cohesion adds to friction until the contact slips once", "[vertex_edg
   CHECK(shifted(bench, {slip, 0}).on(1).x == Approx(-mu * load).epsilon(1e-9));
 }
 
+TEST_CASE("A bond without cohesion is broken by slip, too", "[vertex_edge]") {
+  LawBench bench("vertex_edge", with(undamped_interface(), {{"tensile_strength", 1e5}}));
+  bench.bodies = block_on_base(1e-4);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  CHECK(shifted(bench, {1e-3, 0}).on(1).x < 0);
+  CHECK(shifted(bench, {0, 1.5e-4}).size() == 0);
+}
+
+TEST_CASE("A bond without friction and cohesion only ties", "[vertex_edge]") {
+  LawBench bench("vertex_edge",
+                 with(undamped_interface(), {{"friction_angle", 0}, {"tensile_strength", 1e5}}));
+  bench.bodies = block_on_base(1e-4);
+  bench.bonds_form = true;
+  bench.step();
+  bench.bonds_form = false;
+  CHECK(shifted(bench, {1e-3, 0}).on(1).x == 0);
+  CHECK(shifted(bench, {0, 1.5e-4}).on(1).y == Approx(-1e9 * 5e-5).epsilon(1e-9));
+}
+
 TEST_CASE("A contact that comes about later is not bonded", "[vertex_edge]") {
   LawBench bench("vertex_edge", bonded());
   bench.bodies = block_on_base(-1e-3);

@@ -69,6 +69,46 @@ TEST_CASE("a moving support pulls the body along, and the ledger knows its work"
   CHECK(run_to_end(text).body_motion(0).displacement.x == Approx(0.01).epsilon(1e-6));
 }
 
+TEST_CASE("a support goes on from where it is when a stage gives it another motion", "[simulation][loads]") {
+  WorkingScene text;
+  text.bodies = box("a", 0, 0, 1, 1, below);
+  text.time = R"({"end": 1})";
+  text.output = R"({"history": 0.05})";
+  const auto run = [&](const std::string& motion, const std::string& set, double at, double expected) {
+    CAPTURE(motion, set, at);
+    text.rest = R"("damping": 200, "prescribed": [)" + motion +
+                R"(], "stages": [{"name": "on", "from": 0.5, "set": {)" + set + "}}],";
+    Simulation simulation(text.read(), {});
+    double furthest = 0, last = 0;
+    while (simulation.advance() && simulation.time() <= at + 1e-9) {
+      const double x = simulation.body_motion(0).displacement.x;
+      furthest = std::max(furthest, std::abs(x - last));
+      last = x;
+    }
+    CHECK(last == Approx(expected).margin(4e-4));
+    CHECK(furthest < 0.016);  // no more than 0.2 m/s, and what drags behind
+    CHECK(simulation.summary().largest_residual_share < 2e-2);
+  };
+  const std::string support = R"({"body": "a", "surface": "below", "stiffness": 1e9, )";
+  const auto moved = [&](const std::string& how) { return support + how + "}"; };
+  run(moved(R"("velocity": [0.2, 0])"), R"("/prescribed/0/velocity": [0, 0])", 1, 0.1);
+  run(moved(R"("velocity": [0.2, 0])"), R"("/prescribed/0/velocity": [-0.1, 0])", 1, 0.05);
+  run(moved(R"("velocity": [{"time": [[0, 0], [0.5, 0.2], [1, 0]]}, 0])"),
+      R"("/prescribed/0/velocity": [{"time": [[0, 0], [0.5, 0], [1, 0.2]]}, 0])", 1, 0.1);
+  run(moved(R"("velocity": [0.2, 0])"), R"("/prescribed/0/stiffness": 2e9)", 1, 0.2);
+  run(moved(R"("velocity": [0.2, 0])"),
+      R"("/prescribed/0/velocity": [null, null], "/prescribed/0/displacement": [0, 0])", 1, 0.1);
+  run(moved(R"("displacement": [0.02, 0], "ramp": 0.2)"), R"("/prescribed/0/displacement": [0.04, 0])", 0.6,
+      0.03);
+  run(moved(R"("displacement": [0.02, 0], "ramp": 1)"), R"("/prescribed/0/displacement": [0.03, 0])", 1,
+      0.02);
+  run(moved(R"("displacement": [0.02, 0], "ramp": 0.2)"), R"("/prescribed/0/stiffness": 2e9)", 1, 0.02);
+  run(moved(R"("displacement": [0.02, 0], "ramp": 0.2)"),
+      R"("/prescribed/0/displacement": [null, null], "/prescribed/0/velocity": [0.1, 0])", 1, 0.07);
+  run("", R"("/prescribed": [)" + moved(R"("velocity": [0.1, 0])") + "]", 1, 0.05);
+  run("", R"("/prescribed": [)" + moved(R"("displacement": [0.04, 0], "ramp": 0.4)") + "]", 0.7, 0.02);
+}
+
 TEST_CASE("a point load works along the way of its point", "[simulation][loads]") {
   for (const char* cover : {"rigid", "block"}) {
     INFO(cover);

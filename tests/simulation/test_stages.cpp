@@ -188,6 +188,37 @@ TEST_CASE("a stage that stiffens a closed contact is booked as work", "[simulati
   }
 }
 
+TEST_CASE("a stage that stiffens what friction holds is booked as work where nothing slips",
+          "[simulation][stages]") {
+  const std::string law = GENERATE("overlap_area", "cohesive_overlap", "vertex_edge");
+  const double stiffness = GENERATE(1e8, 4e9);
+  CAPTURE(law, stiffness);
+  WorkingScene text;
+  text.law = law;
+  text.bodies = box("table", -3, -1, 3, 0, R"("fixed": true)") + ", " +
+                box("a", -1, 0, 1, 1, R"("drive": {"x": 0, "y": -0.01, "rotation": 0})");
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.rest = fmt::format(
+      R"("stages": [{{"name": "shear", "from": 0.1, "set": {{"/bodies/1/drive/x": 2e-4, "/bodies/1/drive/y": 0}}}},
+                    {{"name": "other", "from": 0.2, "set": {{"/interfaces/0/tangential_stiffness": {},
+                                                          "/bodies/1/drive/x": 0}}}}],)",
+      stiffness);
+  text.time = R"({"end": 0.3, "dt": 1e-4})";
+  text.output = R"({"history": 0.05})";
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  // T = k l s with s = 0.02 mm on 2 m; T²/(2 k l), and what pressed them together, 0.5 α l d².
+  const double sheared = 1e9 * 2 * 2e-5, held = sheared * sheared / 2 / (2 * stiffness);
+  const EnergyLedger& ledger = simulation.ledger();
+  const double at_start = 0.5 * 2300 * 2 * 0.01 * 0.01;  // J/m, of the motion downwards
+  CHECK(ledger.contact - 1e9 * 1e-6 == Approx(held).epsilon(1e-2));
+  CHECK(ledger.external_work + at_start == Approx(ledger.contact).epsilon(1e-7));
+  CHECK(std::abs(ledger.friction_loss) < 1e-3 * held);
+  CHECK(std::abs(ledger.residual) < 1e-5 * ledger.throughput);
+}
+
 TEST_CASE("a joint that becomes a hundred times as stiff springs open as it would at the new step",
           "[simulation][stages]") {
   for (const char* law : {"overlap_area", "vertex_edge"}) {
