@@ -21,6 +21,7 @@ struct CornerContact {
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
   double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1
   bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
+  bool stands;                ///< on this side, not only on others that the same vertex was found at
 };
 
 /// Whether an edge is no more than a corner cut off, or rounding, between two others.
@@ -71,8 +72,8 @@ class CornerFinder {
                                                                                   : std::nullopt;
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
-        stand(pieces, own, other, *vertex, bond_reach(key), {entry, body, v, key, 0, 0, 0, 0, 0, 1, false},
-              found);
+        stand(pieces, own, other, *vertex, bond_reach(key),
+              {entry, body, v, key, 0, 0, 0, 0, 0, 1, false, true}, found);
       }
     }
     leave_to_ends(geometry, found, first);

@@ -155,25 +155,29 @@ class VertexEdge final : public ContactModel {
     drop_repeated(all, work.found);
   }
 
-  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep; in a
-  /// reflex corner on both.
+  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep, and
+  /// on the sides that reflex corners lead to from there.
   static void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
     std::erase_if(found, [&](const CornerContact& contact) {
       return contact.past_cut && !stands_past_cut(pieces, contact, found);
     });
-    std::size_t kept = 0;
-    for (const CornerContact& contact : found) {
-      const auto same = [&](const CornerContact& other) {
-        return other.key == contact.key && !in_reflex_corner(pieces, contact, other);
-      };
-      const auto before = std::find_if(found.begin(), found.begin() + kept, same);
-      if (before == found.begin() + kept) {
-        found[kept++] = contact;
-      } else if (is_nearer(contact, *before)) {
-        *before = contact;
-      }
+    for (auto contact = found.begin(); contact != found.end(); ++contact) {
+      const auto nearest = std::find_if(found.begin(), contact, [&](const CornerContact& other) {
+        return other.stands && other.key == contact->key;
+      });
+      contact->stands = nearest == contact || is_nearer(*contact, *nearest);
+      if (contact->stands && nearest != contact) nearest->stands = false;
     }
-    found.resize(kept);
+    const auto led_to = [&](const CornerContact& contact) {
+      return !contact.stands && std::ranges::any_of(found, [&](const CornerContact& other) {
+        return other.stands && other.key == contact.key && in_reflex_corner(pieces, contact, other);
+      });
+    };
+    for (auto next = found.begin(); next != found.end();) {
+      next = std::ranges::find_if(found, led_to);
+      if (next != found.end()) next->stands = true;
+    }
+    std::erase_if(found, [](const CornerContact& contact) { return !contact.stands; });
   }
 
   /// Past a cut a vertex stands in the reflex corner where that begins, and nowhere else: on its other face,
