@@ -130,7 +130,7 @@ class CornerFinder {
     const double sought = std::max(contact.depth, bond_reach.held);
     double edge = vertex.shorter;
     if (!vertex.divided && (nearest > edge || sought > flush * edge))
-      edge = shorter_edge(Vertices(pieces, contact.vertex_body), own, v);  // or it need not be known
+      edge = shorter_edge(own, v);   // or it need not be known
     if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
@@ -275,19 +275,20 @@ class CornerFinder {
   }
 
   /// m, of the edges that meet in a vertex, each with what lies straight beyond it; short ones left out.
-  static double shorter_edge(const Vertices& vertices, const Piece& own, std::uint32_t v) {
+  static double shorter_edge(const Piece& own, std::uint32_t v) {
     if (own.is_strip()) return own.length(0);
     std::uint32_t before = own.previous(v), after = v;
     // Mostly the shorter one ends where it is.
     const bool first = own.length(before) < own.length(after);
     const std::uint32_t shorter = first ? before : after,
                         beyond = first ? own.previous(before) : own.next(after);
-    if (!is_short(own, shorter) && !(dot(own.tangent(shorter), own.tangent(beyond)) >= straight))
+    if (!is_short(own, shorter) && !own.is_cut(beyond) &&
+        !(dot(own.tangent(shorter), own.tangent(beyond)) >= straight))
       return own.length(shorter);
     if (is_short(own, before)) before = own.previous(before);
     if (is_short(own, after)) after = own.next(after);
     const auto length = [&](std::uint32_t edge) {
-      const auto [low, high] = vertices.straight_run(own, edge);
+      const auto [low, high] = straight_run(own, edge);
       return high - low;
     };
     return std::min(length(before), length(after));
@@ -302,10 +303,10 @@ class CornerFinder {
     // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
     if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
     const std::uint32_t edge = flatter_edge(own, contact.vertex, along);
-    const auto [own_low, own_high] = Vertices(pieces, body).straight_run(own, edge);
+    const auto [own_low, own_high] = straight_run(own, edge);
     const double start = dot(along, own.at(edge) + own_low * own.tangent(edge) - other.at(side));
     const double end = dot(along, own.at(edge) + own_high * own.tangent(edge) - other.at(side));
-    const auto [low, high] = Vertices(pieces, 1 - body).straight_run(other, side);
+    const auto [low, high] = straight_run(other, side);
     const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
     // A side that stands upright on the other, at the end of a base, carries nothing there.
     if (own.is_strip()) return std::max(shadow, 0.0) / 2;

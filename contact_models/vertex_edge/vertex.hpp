@@ -22,12 +22,27 @@ inline constexpr double straight = 1 - 1e-9;
 /// A corner of a body's boundary that points outward, as one of the pieces has it that meet there.
 struct Vertex {
   Point before, after;  ///< tangents of the edges that meet in it
-  double shorter;       ///< m, length of the shorter of them
+  double shorter;       ///< m, length of the shorter of them; of a divided one with all that is straight
   std::uint32_t name;   ///< number of a corner, the same for all pieces that have this one
   bool divided;         ///< a cut ends in it: the piece has one of the edges only
 
   Point outward() const { return before - after; }
 };
+
+/// The straight stretch of boundary that a side belongs to, along its tangent from its start: collinear
+/// neighbours count as one, also beyond a cut, so that passing from one to the next changes nothing.
+inline std::pair<double, double> straight_run(const Piece& own, std::uint32_t side) {
+  const auto goes_on = [&](std::uint32_t other) {
+    return other != side && own.real(other) && dot(own.tangent(side), own.tangent(other)) >= straight;
+  };
+  double low = 0, high = own.length(side);
+  std::uint32_t at = side;
+  for (; goes_on(own.next(at)); at = own.next(at)) high += own.length(own.next(at));
+  high += own.straight_after(at);
+  for (at = side; goes_on(own.previous(at)); at = own.previous(at)) low -= own.length(own.previous(at));
+  low -= own.straight_before(at);
+  return {low, high};
+}
 
 /// Finds what lies beyond the cuts of concave bodies, among the pieces of a pair.
 class Vertices {
@@ -53,18 +68,6 @@ class Vertices {
     return std::nullopt;
   }
 
-  /// The straight stretch of boundary that a side belongs to, along its tangent from its start: collinear
-  /// neighbours count as one, also beyond a cut, so that passing from one to the next changes nothing.
-  std::pair<double, double> straight_run(const Piece& own, std::uint32_t side) const {
-    const Edge start{&own, side};
-    double low = 0, high = start.length();
-    for (auto at = neighbour(start, true); at && goes_on(start, *at); at = neighbour(*at, true))
-      high += at->length();
-    for (auto at = neighbour(start, false); at && goes_on(start, *at); at = neighbour(*at, false))
-      low -= at->length();
-    return {low, high};
-  }
-
  private:
   struct Edge {
     const Piece* piece;
@@ -74,24 +77,15 @@ class Vertices {
     double length() const { return piece->length(side); }
   };
 
-  /// The next side of the boundary, counter-clockwise or the other way; nothing where it is not known.
-  std::optional<Edge> neighbour(Edge edge, bool forward) const {
-    const Piece& piece = *edge.piece;
-    const std::uint32_t side = forward ? piece.next(edge.side) : piece.previous(edge.side);
-    if (piece.is_cut(side)) return follow(piece, forward ? side : edge.side, side, forward);
-    return piece.real(side) ? std::optional(Edge{&piece, side}) : std::nullopt;
-  }
-
-  static bool goes_on(const Edge& from, const Edge& to) {
-    return dot(from.tangent(), to.tangent()) >= straight &&
-           !(from.piece->first_corner() == to.piece->first_corner() && from.side == to.side);
-  }
-
   static std::optional<Vertex> turning(Edge before, Edge after, std::uint32_t name, bool divided) {
     if (!(dot(before.tangent(), after.tangent()) < straight)) return std::nullopt;
     if (divided && !(cross(before.tangent(), after.tangent()) > 0)) return std::nullopt;
-    return Vertex{before.tangent(), after.tangent(), std::min(before.length(), after.length()), name,
-                  divided};
+    const auto length = [&](const Edge& edge) {
+      if (!divided) return edge.length();
+      const auto [low, high] = straight_run(*edge.piece, edge.side);
+      return high - low;
+    };
+    return Vertex{before.tangent(), after.tangent(), std::min(length(before), length(after)), name, divided};
   }
 
   /// The edge beyond the cuts that end in a corner of a piece, the first of them its side `cut`:

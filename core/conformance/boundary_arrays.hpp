@@ -1,11 +1,13 @@
 #pragma once
 
 #include "conformance/held_body.hpp"
+#include "geometry/straight_beyond.hpp"
 #include "geometry/vanishing_depth.hpp"
 
 #include <talus/contact_model.hpp>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace talus::conformance {
@@ -13,16 +15,18 @@ namespace talus::conformance {
 /// The arrays of all bodies, as the host keeps them.
 struct BoundaryArrays {
   std::vector<BoundaryCorner> corners;
-  std::vector<double> clear_depth;
+  std::vector<double> clear_depth, straight_beyond;
   std::vector<std::uint32_t> piece_start{0}, body_piece{0}, corner_body;
   std::vector<std::uint8_t> is_strip;
   std::vector<Vec2> reference;
 
   explicit BoundaryArrays(const std::vector<HeldBody>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) add(bodies[i], i);
+    if (!straight_beyond.empty()) straight_beyond.resize(2 * corners.size());
   }
 
   void add(const HeldBody& body, std::uint32_t number) {
+    const std::size_t first = corners.size(), first_piece = piece_start.size() - 1;
     for (const ConvexPiece& piece : body.pieces) {
       for (const PieceCorner& corner : piece) {
         const Vec2 u = displacement(body.motion, corner.at), v = velocity(body.motion, corner.at);
@@ -37,6 +41,11 @@ struct BoundaryArrays {
       is_strip.push_back(body.strips ? 1 : 0);
     }
     body_piece.push_back(static_cast<std::uint32_t>(piece_start.size() - 1));
+    if (body.strips || body.pieces.size() < 2) return;
+    const std::vector<double> own = talus::straight_beyond(std::span(corners).subspan(first),
+                                                           std::span(piece_start).subspan(first_piece));
+    straight_beyond.resize(2 * first);
+    straight_beyond.insert(straight_beyond.end(), own.begin(), own.end());
   }
 
   void measure_sides(std::size_t begin) {
@@ -62,7 +71,8 @@ struct BoundaryArrays {
   }
 
   Boundaries view() const {
-    return {corners.data(), piece_start.data(), is_strip.data(), clear_depth.data()};
+    return {corners.data(), piece_start.data(), is_strip.data(), clear_depth.data(),
+            straight_beyond.empty() ? nullptr : straight_beyond.data()};
   }
 };
 

@@ -111,6 +111,7 @@ GivenBatch DrivenLaw::given(double dt) {
   batch.piece_start = Guarded(span_of(arrays.piece_start));
   batch.is_strip = Guarded(span_of(arrays.is_strip));
   batch.clear_depth = Guarded(span_of(arrays.clear_depth));
+  batch.straight_beyond = Guarded(span_of(arrays.straight_beyond));
   for (const BoundaryCorner& corner : arrays.corners) {
     if (corner.surface != internal_side)
       batch.surface_count = std::max(batch.surface_count, corner.surface + 1);

@@ -10,6 +10,7 @@ void each_array(Batch& p, const GivenBatch& q, const Visit& visit) {
   visit("boundaries.piece_start", p.piece_start, q.piece_start);
   visit("boundaries.is_strip", p.is_strip, q.is_strip);
   visit("boundaries.clear_depth", p.clear_depth, q.clear_depth);
+  visit("boundaries.straight_beyond", p.straight_beyond, q.straight_beyond);
   visit("interfaces.row", p.row, q.row);
   visit("interfaces.value", p.values, q.values);
   visit("pairs", p.pairs, q.pairs);
@@ -22,7 +23,8 @@ void each_array(Batch& p, const GivenBatch& q, const Visit& visit) {
 }  // namespace
 
 ContactBatch GivenBatch::view() const {
-  return {{corners.data(), piece_start.data(), is_strip.data(), clear_depth.data()},
+  return {{corners.data(), piece_start.data(), is_strip.data(), clear_depth.data(),
+           straight_beyond.size() > 0 ? straight_beyond.data() : nullptr},
           {row.data(), values.data(), surface_count, parameter_count},
           pairs.data(),
           all_piece_pairs(),

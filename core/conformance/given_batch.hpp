@@ -17,6 +17,7 @@ struct GivenBatch {
   Guarded<std::uint32_t> piece_start;
   Guarded<std::uint8_t> is_strip;
   Guarded<double> clear_depth;
+  Guarded<double> straight_beyond;
   Guarded<std::uint32_t> row;
   Guarded<double> values;
   std::uint32_t surface_count = 1, parameter_count = 0;

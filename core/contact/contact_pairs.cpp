@@ -201,7 +201,7 @@ void ContactStage::lay_out_loads(const Model& model) {
 }
 
 void ContactStage::describe_plain_pairs(const Model& model) {
-  const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data()};
+  const Boundaries boundaries{nullptr, model.piece_start.data(), nullptr, clear_depth_.data(), nullptr};
   for (BodyPair& pair : pairs_) {
     pair.plain_corners[0] = pair.plain_corners[1] = 0;
     if (!plain(pair.a, pair.b)) continue;

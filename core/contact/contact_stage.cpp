@@ -1,5 +1,6 @@
 #include "contact/contact_stage.hpp"
 
+#include "geometry/straight_beyond.hpp"
 #include "geometry/vanishing_depth.hpp"
 
 #include <fmt/format.h>
@@ -52,14 +53,32 @@ std::uint32_t plain_surface(const Model& model, const Body& body, const std::vec
   return model.surface[body.corner_begin];
 }
 
-/// Of a piece, m.
-double vanishing_depth_at_start(const Model& model, std::uint32_t piece) {
+std::vector<BoundaryCorner> ring_at_start(const Model& model, std::uint32_t piece) {
   std::vector<BoundaryCorner> ring;
   for (std::uint32_t c = model.piece_start[piece]; c < model.piece_start[piece + 1]; ++c)
     ring.push_back(
         {model.reference_x[c], model.reference_y[c], 0, 0, 0, 0, 0, model.surface[c], model.cut[c]});
   measure_sides(ring);
-  return vanishing_depth(ring.data(), ring.size());
+  return ring;
+}
+
+/// Boundaries::straight_beyond; empty where no body is cut into pieces.
+std::vector<double> straight_beyond_of(const Model& model) {
+  std::vector<double> all;
+  for (const Body& body : model.bodies) {
+    if (body.piece_end <= body.piece_begin + 1 || model.is_strip[body.piece_begin] != 0) continue;
+    std::vector<BoundaryCorner> corners;
+    for (std::uint32_t p = body.piece_begin; p < body.piece_end; ++p) {
+      const std::vector<BoundaryCorner> ring = ring_at_start(model, p);
+      corners.insert(corners.end(), ring.begin(), ring.end());
+    }
+    const std::vector<double> own = straight_beyond(
+        corners,
+        std::span(model.piece_start).subspan(body.piece_begin, body.piece_end - body.piece_begin + 1));
+    all.resize(2 * model.reference_x.size());
+    std::ranges::copy(own, all.begin() + std::ptrdiff_t{2} * model.piece_start[body.piece_begin]);
+  }
+  return all;
 }
 
 }  // namespace
@@ -82,8 +101,11 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
   if (scene.contact.component == nullptr) return;
   clear_depth_.reserve(model.piece_body.size());
-  for (std::uint32_t p = 0; p < model.piece_body.size(); ++p)
-    clear_depth_.push_back(clear_share * vanishing_depth_at_start(model, p));
+  for (std::uint32_t p = 0; p < model.piece_body.size(); ++p) {
+    const std::vector<BoundaryCorner> ring = ring_at_start(model, p);
+    clear_depth_.push_back(clear_share * vanishing_depth(ring.data(), ring.size()));
+  }
+  straight_beyond_ = straight_beyond_of(model);
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   const std::uint32_t history_doubles = law_->doubles_per_contact();
   if (history_doubles > most_history_doubles) {
@@ -230,7 +252,8 @@ void ContactStage::ask_about(const Model& model, const MotionState& motion, cons
     loads_.fill(model, pairs_[begin + found.active[i]], piece_pairs(), poison);
 #endif
   const ContactBatch asked{
-      {motion.corners.data(), model.piece_start.data(), model.is_strip.data(), clear_depth_.data()},
+      {motion.corners.data(), model.piece_start.data(), model.is_strip.data(), clear_depth_.data(),
+       straight_beyond_.empty() ? nullptr : straight_beyond_.data()},
       interfaces_,
       pairs_.data() + begin,
       piece_pairs(),

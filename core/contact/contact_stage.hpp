@@ -185,6 +185,7 @@ class ContactStage {
   std::vector<std::uint32_t> plain_surface_;
   std::vector<std::uint32_t> first_piece_;  ///< [body] as PiecePairs says it
   std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
+  std::vector<double> straight_beyond_;     ///< [2 * corner] as Boundaries::straight_beyond; may be empty
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
   PairSharing sharing_;

@@ -50,7 +50,8 @@ class RecordedStep {
     for (Batch& each : batches_) {
       each.reports.resize(each.pairs.size());
       ContactBatch batch = each.as_given;
-      batch.boundaries = {corners_.data(), piece_start_.data(), is_strip_.data(), clear_depth_.data()};
+      batch.boundaries = {corners_.data(), piece_start_.data(), is_strip_.data(), clear_depth_.data(),
+                          nullptr};
       batch.interfaces.row = rows_.data();
       batch.interfaces.value = values_.data();
       batch.pairs = each.pairs.data();

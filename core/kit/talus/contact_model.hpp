@@ -30,6 +30,10 @@ struct Boundaries {
       is_strip;               ///< [piece] 1: a strip behind one side of a body of many elements, side 0 of
                               ///< the piece; the other sides are internal. Both ends of side 0 carry contact
   const double* clear_depth;  ///< [piece] m, so deep only sides that share a corner compete for a point
+  /// [2 * corner] how far the boundary goes on straight past the cut at the start, and past that at the end,
+  /// of the side that starts there, as a share of its length: for the piece beyond may not be listed. 0 where
+  /// there is no cut; null where no body has any.
+  const double* straight_beyond;
 };
 
 /// Parameters of the interface between two surface classes, in the order the law declared them.

@@ -15,6 +15,8 @@ class Piece {
       : corners_(boundaries.corner + boundaries.piece_start[piece]),
         first_(boundaries.piece_start[piece]),
         size_(boundaries.piece_start[piece + 1] - first_),
+        beyond_(boundaries.straight_beyond == nullptr ? nullptr
+                                                      : boundaries.straight_beyond + std::size_t{2} * first_),
         offset_(offset),
         is_strip_(boundaries.is_strip[piece] != 0),
         load_start(first_load) {}
@@ -32,6 +34,13 @@ class Piece {
   Point tangent(std::uint32_t i) const { return {corner(i).tangent_x, corner(i).tangent_y}; }
   Point normal(std::uint32_t side) const { return {tangent(side).y, -tangent(side).x}; }  ///< outward
   double length(std::uint32_t side) const { return corner(side).length; }
+  /// m, how far the boundary goes on straight past the cut before or after a side; 0 where there is none.
+  double straight_before(std::uint32_t side) const {
+    return beyond_ == nullptr ? 0 : beyond_[2 * side] * length(side);
+  }
+  double straight_after(std::uint32_t side) const {
+    return beyond_ == nullptr ? 0 : beyond_[2 * side + 1] * length(side);
+  }
   std::uint32_t surface(std::uint32_t side) const { return corner(side).surface; }
   std::uint32_t cut(std::uint32_t side) const { return corner(side).cut; }
   bool is_cut(std::uint32_t side) const { return surface(side) == internal_side; }
@@ -99,6 +108,7 @@ class Piece {
 
   const BoundaryCorner* corners_ = nullptr;
   std::uint32_t first_ = 0, size_ = 0;
+  const double* beyond_ = nullptr;
   Point offset_{0, 0};
   bool is_strip_ = false;
 

@@ -67,7 +67,7 @@ class TwoBodies {
     pair.slot_capacity = capacity;
     pair.contact_count = contacts_;
     const std::uint32_t first_piece[2] = {0, 1};
-    const Boundaries boundaries{corners_.data(), piece_start_.data(), strips, clear_depth};
+    const Boundaries boundaries{corners_.data(), piece_start_.data(), strips, clear_depth, nullptr};
     describe_plain(pair, 0, 1, boundaries, row);
     const ContactBatch batch{boundaries,
                              {&row, interface.data(), 1, static_cast<std::uint32_t>(interface.size())},

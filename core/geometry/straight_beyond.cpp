@@ -1,0 +1,93 @@
+#include "geometry/straight_beyond.hpp"
+
+#include "geometry/vec2.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace talus {
+namespace {
+
+/// Cosine of the turn below which two sides count as one straight stretch.
+constexpr double straight = 1 - 1e-9;
+
+/// Walks around a body over the cuts between its pieces.
+class Outline {
+ public:
+  Outline(std::span<const BoundaryCorner> corners, std::span<const std::uint32_t> piece_start)
+      : corners_(corners), next_(corners.size()), previous_(corners.size()) {
+    for (std::size_t p = 0; p + 1 < piece_start.size(); ++p) {
+      const std::uint32_t begin = piece_start[p] - piece_start[0], end = piece_start[p + 1] - piece_start[0];
+      for (std::uint32_t c = begin; c < end; ++c) {
+        next_[c] = c + 1 == end ? begin : c + 1;
+        previous_[next_[c]] = c;
+        if (is_cut(c)) banks_.push_back(c);
+      }
+    }
+    std::ranges::sort(banks_, {}, [&](std::uint32_t side) { return std::pair{corners_[side].cut, side}; });
+  }
+
+  /// How far it goes straight on beyond the cut at the end (`forward`) or at the start of a side, m.
+  double beyond(std::uint32_t side, bool forward) const {
+    if (is_cut(side) || !(corners_[side].length > 0) || !is_cut(beside(side, forward))) return 0;
+    double way = 0;
+    for (auto at = neighbour(side, forward); at && *at != side && goes_on(side, *at);
+         at = neighbour(*at, forward))
+      way += corners_[*at].length;
+    return way;
+  }
+
+ private:
+  bool is_cut(std::uint32_t side) const { return corners_[side].surface == internal_side; }
+  std::uint32_t beside(std::uint32_t side, bool forward) const {
+    return forward ? next_[side] : previous_[side];
+  }
+
+  bool goes_on(std::uint32_t side, std::uint32_t other) const {
+    const BoundaryCorner &p = corners_[side], &q = corners_[other];
+    return p.tangent_x * q.tangent_x + p.tangent_y * q.tangent_y >= straight;
+  }
+
+  /// The next side of the boundary in that direction.
+  std::optional<std::uint32_t> neighbour(std::uint32_t side, bool forward) const {
+    std::uint32_t at = beside(side, forward);
+    for (std::size_t crossed = 0; is_cut(at); ++crossed) {
+      const auto bank = across(at, corners_[forward ? at : next_[at]], forward);
+      if (!bank || crossed == banks_.size()) return std::nullopt;
+      at = beside(*bank, forward);
+    }
+    return corners_[at].length > 0 ? std::optional(at) : std::nullopt;
+  }
+
+  /// The other bank of a cut, where it ends (`forward`) or starts at a corner.
+  std::optional<std::uint32_t> across(std::uint32_t cut, const BoundaryCorner& corner, bool forward) const {
+    const auto number = [&](std::uint32_t side) { return corners_[side].cut; };
+    const double near = 1e-9 * corners_[cut].length;
+    for (const std::uint32_t side : std::ranges::equal_range(banks_, corners_[cut].cut, {}, number)) {
+      const BoundaryCorner& at = corners_[forward ? next_[side] : side];
+      if (side != cut && size_of({at.x - corner.x, at.y - corner.y}) <= near) return side;
+    }
+    return std::nullopt;
+  }
+
+  std::span<const BoundaryCorner> corners_;
+  std::vector<std::uint32_t> next_, previous_;
+  std::vector<std::uint32_t> banks_;  ///< sides that are cuts, by the number of the cut
+};
+
+}  // namespace
+
+std::vector<double> straight_beyond(std::span<const BoundaryCorner> corners,
+                                    std::span<const std::uint32_t> piece_start) {
+  const Outline outline(corners, piece_start);
+  std::vector<double> shares(2 * corners.size());
+  for (std::uint32_t side = 0; side < corners.size(); ++side) {
+    for (const bool forward : {false, true}) {
+      const double beyond = outline.beyond(side, forward);
+      if (beyond > 0) shares[2 * side + (forward ? 1 : 0)] = beyond / corners[side].length;
+    }
+  }
+  return shares;
+}
+
+}  // namespace talus
