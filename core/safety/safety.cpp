@@ -54,6 +54,9 @@ bool reduce(Choice& model, double factor) {
                 model.values);
 }
 
+/// Cosine of what the normals of contacts on one face of a body differ by.
+constexpr double one_face = 0.9;
+
 class Reduction {
  public:
   Reduction(const Scene& scene, const SafetySettings& settings) : scene_(scene), settings_(settings) {
@@ -73,6 +76,7 @@ class Reduction {
     stood_ = parts_of(whole);
     pieces_.emplace(whole);
     warn_of_short_runs();
+    warn_of_held_friction(whole);
   }
 
   bool settled() const { return settled_; }
@@ -111,14 +115,6 @@ class Reduction {
   /// together, as limit equilibrium has them. Friction of μp over a cohesion of c is late by (μp − c)/α_T,
   /// and c has lost as much of its softening by then.
   void warn_of_brittle_bonds(double penetration) {
-    if (scene_.contact.component == nullptr) return;
-    const Component& law = *scene_.contact.component->component;
-    const auto value_of = [&](const std::vector<double>& values, std::string_view key) {
-      for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
-        if (key == law.interface_parameters[i].key) return values[i];
-      }
-      return 0.0;
-    };
     constexpr double enough = 10;  // of the slip at which a bond has all of its strength
     constexpr double late = 100;   // of the slip by which friction is late
     double wanted = 0;
@@ -136,8 +132,49 @@ class Reduction {
         "cohesion of an interface is lost where it breaks before friction bears its part: the factor "
         "may be below that of limit equilibrium; `cohesive_overlap` with a softening_slip of {:.2g} m "
         "or more, ten times cohesion/tangential_stiffness and a hundred times by what friction is more than "
-        "cohesion, lets both come to their strength",
+        "cohesion, brings it nearer",
         wanted));
+  }
+
+  /// What friction bears of a body on one of its faces, held without limit, comes upon the bonds of another
+  /// when it is let go.
+  void warn_of_held_friction(Simulation& whole) {
+    const auto bonded = [&](const std::vector<double>& values) { return value_of(values, "cohesion") > 0; };
+    if (!scene_.settle || !scene_.settle->hold_stick || std::ranges::none_of(scene_.interface_values, bonded))
+      return;
+    try {
+      whole.advance(settings_.interrupted);
+    } catch (const NumericalTrouble&) {
+      return;  // told where the runs meet it
+    }
+    std::vector<std::optional<Vec2>> face(scene_.bodies.size());
+    for (const Contact& contact : whole.contacts()) {
+      const double size = size_of(contact.normal_force);
+      if (size == 0) continue;
+      const Vec2 normal{contact.normal_force.x / size, contact.normal_force.y / size};
+      for (const auto& [body, sign] : {std::pair{contact.body_a, -1.0}, {contact.body_b, 1.0}}) {
+        if (scene_.bodies[body].fixed) continue;
+        const Vec2 out{sign * normal.x, sign * normal.y};
+        if (!face[body]) face[body] = out;
+        if (out.x * face[body]->x + out.y * face[body]->y > one_face) continue;
+        warnings_.push_back(fmt::format(
+            "'{}' stands on several faces, and friction is held without limit while the scene settles: what "
+            "it lets go of at t = 0 comes upon bonds at once, and the factor may be a few per cent less than "
+            "that of limit equilibrium; see what it is with /settle/hold_stick = false",
+            scene_.bodies[body].name));
+        return;
+      }
+    }
+  }
+
+  /// A parameter of an interface by its key; 0 where the law has none.
+  double value_of(const std::vector<double>& values, std::string_view key) const {
+    if (scene_.contact.component == nullptr) return 0;
+    const Component& law = *scene_.contact.component->component;
+    for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
+      if (key == law.interface_parameters[i].key) return values[i];
+    }
+    return 0;
   }
 
   /// What lacks a share of its strength gains at most that share of gravity.

@@ -170,6 +170,24 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
   REQUIRE(late.size() == 1);
   CHECK_THAT(late[0], Catch::Contains("by what friction is more than cohesion"));
   CHECK(bonded("cohesive_overlap", R"(, "cohesion": 100, "softening_slip": 1e-3)").empty());
+
+  // Against a wall, too, friction is held.
+  const auto in_corner = [&](const char* bonds, bool held) {
+    Scene corner = from_text(fmt::format(
+        fmt::runtime(rock_scene), "cohesive_overlap", 30, bonds,
+        R"({"name": "base", "polygon": [[-4, 4], [-4, -1], [4, -1], [4, 0], [-1, 0], [-1, 4]], "material": "rock",
+            "fixed": true}, {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})"));
+    corner.gravity = {-1, -10};
+    corner.settle->hold_stick = held;
+    return factor_of_safety(corner, {.highest = 1.1}).warnings;
+  };
+  const char* soft = R"(, "cohesion": 1e4, "softening_slip": 1e-3)";
+  const std::vector<std::string> held = in_corner(soft, true);
+  REQUIRE(held.size() == 1);
+  CHECK_THAT(held[0],
+             Catch::Contains("'a' stands on several faces") && Catch::Contains("/settle/hold_stick"));
+  CHECK(in_corner(soft, false).empty());
+  CHECK(in_corner("", true).empty());
 }
 
 TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {
