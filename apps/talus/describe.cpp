@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "plugin/refusal.hpp"
+#include "scene/overrides.hpp"
 #include "scene_options.hpp"
 #include "schema/lookup.hpp"
 #include "text/nearest.hpp"
@@ -59,6 +60,15 @@ void print_section(const Part& section) {
                                               guess(name, names), listed(names)));
 }
 
+/// Of a value that a stage sets, as messages point to it, the pointer under which it is set.
+std::string without_stage(const std::string& name) {
+  const auto parts = split_pointer(name);
+  if (!parts || parts->size() < 4 || (*parts)[0] != "stages" || (*parts)[2] != "set") return name;
+  std::string pointer = (*parts)[3];
+  for (std::size_t i = 4; i < parts->size(); ++i) pointer += '/' + (*parts)[i];
+  return pointer;
+}
+
 }  // namespace
 
 Usage usage_of_describe() {
@@ -77,7 +87,7 @@ int describe_command(const Words& words) {
   const Usage usage = usage_of_describe();
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
-  const std::string name = text_option(*given, "NAME");
+  const std::string name = without_stage(text_option(*given, "NAME"));
   const Registry registry = load_registry(usage, *given);
   for (const RegisteredComponent& entry : registry.components()) {
     if (name != entry.component->name) continue;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -53,13 +54,15 @@ PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
   return one;
 }
 
-/// The support of a surface along an axis, if there is one.
-const PrescribedSurface* find_support(std::span<const PrescribedSurface> supports,
-                                      const PrescribedSurface& like, std::size_t axis) {
-  const auto found = std::ranges::find_if(supports, [&](const PrescribedSurface& one) {
-    return one.body == like.body && one.surface_class == like.surface_class && one.holds(axis);
-  });
-  return found == supports.end() ? nullptr : &*found;
+/// Which hold the same surface along an axis as one does.
+std::vector<const PrescribedSurface*> holders(std::span<const PrescribedSurface> supports,
+                                              const PrescribedSurface& like, std::size_t axis) {
+  std::vector<const PrescribedSurface*> found;
+  for (const PrescribedSurface& one : supports) {
+    if (one.body == like.body && one.surface_class == like.surface_class && one.holds(axis))
+      found.push_back(&one);
+  }
+  return found;
 }
 
 /// What a support holds besides what its velocities have travelled, at a time.
@@ -79,11 +82,22 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
   SupportPast past = before->past[axis];
   const bool same_velocity = now.velocity[axis] == before->velocity[axis];
   if (!same_velocity) past.travelled = past.travelled + travelled(*before) + -1 * travelled(now);
-  if (now.displacement[axis] == before->displacement[axis] && now.ramp == before->ramp) return past;
+  if (now.displacement[axis] == before->displacement[axis]) {
+    if (now.ramp == before->ramp) return past;
+    if (before->ramp_share(axis, from) == 1) {  // it is over, whatever it would be now
+      past.since = -std::numeric_limits<double>::infinity();
+      return past;
+    }
+  }
   past.since = from;
   past.former = held_at(*before, axis, from);
-  // A support that goes on by a velocity alone goes on from there.
-  if (!now.displacement[axis]) past.travelled = past.travelled + std::exchange(past.former, {});
+  // One that goes on by a velocity alone goes on from there; one that is given a displacement alone comes to
+  // that, wherever it is.
+  if (!now.displacement[axis]) {
+    past.travelled = past.travelled + std::exchange(past.former, {});
+  } else if (!now.velocity[axis]) {
+    past.former = past.former + std::exchange(past.travelled, {});
+  }
   return past;
 }
 
@@ -170,8 +184,11 @@ void continue_prescribed(std::vector<PrescribedSurface>& supports, std::span<con
                          double from) {
   for (PrescribedSurface& support : supports) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (support.holds(axis))
-        support.past[axis] = past_of(support, find_support(before, support, axis), axis, from);
+      if (!support.holds(axis)) continue;
+      // Where several hold the same, the first goes on from the first.
+      const auto now = holders(supports, support, axis), then = holders(before, support, axis);
+      const auto number = static_cast<std::size_t>(std::ranges::find(now, &support) - now.begin());
+      support.past[axis] = past_of(support, number < then.size() ? then[number] : nullptr, axis, from);
     }
   }
 }

@@ -140,9 +140,9 @@ std::array<std::optional<Function>, 2> take_axes(const Taking& taking, Section& 
   const std::string pointer = section.pointer_to(taking.parameter.key);
   OrderedJson& resolved = section.resolved[taking.parameter.key] = written;
   if (!written.is_array() || written.size() != 2) {
-    section.mistakes().add(pointer,
-                           fmt::format("{} is not allowed here: expected [x, y], each {}{}", shown(written),
-                                       what_is_allowed(taking.parameter), free ? ", or null" : ""));
+    section.mistakes().add(pointer, fmt::format("{} is not allowed here: expected [x, y], each {}{}",
+                                                shown(written), what_is_allowed(taking.parameter),
+                                                free ? ", or null for an axis that is free" : ""));
     return axes;
   }
   for (std::size_t i = 0; i < 2; ++i) {

@@ -57,8 +57,8 @@ void Sleep::exempt(const StageSettings& stage) {
     if (varies_in_time(load.traction) || load.pressure.varies_in_time()) until(load.body, never);
   }
   for (const PrescribedSurface& prescribed : stage.prescribed) {
-    until(prescribed.body, prescribed.ramp);
     for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (prescribed.holds(axis)) until(prescribed.body, prescribed.past[axis].since + prescribed.ramp);
       const bool varies = prescribed.displacement[axis] && prescribed.displacement[axis]->varies_in_time();
       const bool moves = prescribed.velocity[axis] && !prescribed.velocity[axis]->zero();
       if (varies || moves) until(prescribed.body, never);

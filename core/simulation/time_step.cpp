@@ -279,8 +279,11 @@ CriticalStep StepVote::among(std::span<const double> lightest) const {
 
 std::string limiter_of(const Scene& scene, const CriticalStep& step) {
   if (std::isinf(step.dt)) return "nothing vibrates";
+  const char* springs = scene.contact.component == nullptr ? "mostly its supports"
+                        : scene.prescribed.empty()         ? "mostly its contacts"
+                                                           : "mostly its contacts and supports";
   return fmt::format("body '{}': {}", scene.bodies[step.body].name,
-                     step.strained ? "mostly its strain modes" : "mostly its contacts");
+                     step.strained ? "mostly its strain modes" : springs);
 }
 
 double automatic_step(const CriticalStep& critical, double safety) {

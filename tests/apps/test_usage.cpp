@@ -71,6 +71,9 @@ TEST_CASE("plugins and describe read the descriptors", "[apps]") {
   CHECK_THAT(law.out, Contains("friction_rule") && Contains("return_mapping") &&
                           Contains("normal_stiffness") && Contains("Pa/m") && Contains("required"));
   CHECK_THAT(call_talus(scratch.folder(), {"describe", "/time"}).out, Contains("safety") && Contains("0.2"));
+  for (const char* ramp :
+       {"/prescribed/0/ramp", "/stages/1/set/~1prescribed~10~1ramp", "/stages/1/set/~1prescribed/0/ramp"})
+    CHECK_THAT(call_talus(scratch.folder(), {"describe", ramp}).out, Contains("grows to its full size"));
   const Call unknown = call_talus(scratch.folder(), {"describe", "overlap_aera"});
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("did you mean 'overlap_area'?"));

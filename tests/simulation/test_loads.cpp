@@ -97,7 +97,15 @@ TEST_CASE("a support goes on from where it is when a stage gives it another moti
       R"("/prescribed/0/velocity": [{"time": [[0, 0], [0.5, 0], [1, 0.2]]}, 0])", 1, 0.1);
   run(moved(R"("velocity": [0.2, 0])"), R"("/prescribed/0/stiffness": 2e9)", 1, 0.2);
   run(moved(R"("velocity": [0.2, 0])"),
-      R"("/prescribed/0/velocity": [null, null], "/prescribed/0/displacement": [0, 0])", 1, 0.1);
+      R"("/prescribed/0/velocity": [null, null], "/prescribed/0/displacement": [0.1, 0])", 1, 0.1);
+  run(moved(R"("velocity": [0.2, 0])"),
+      R"("/prescribed/0/velocity": [null, null], "/prescribed/0/displacement": [0.05, 0],
+         "/prescribed/0/ramp": 0.5)",
+      0.75, 0.075);
+  run(moved(R"("displacement": [{"scale": 0.1, "time": [[0, 0], [1, 1]]}, 0])"),
+      R"("/prescribed/0/displacement/1": 1e-3, "/prescribed/0/ramp": 0.4)", 0.7, 0.07);
+  run(moved(R"("velocity": [0.1, 0])") + ", " + moved(R"("displacement": [0, 0])"),
+      R"("/gravity": [0, 1e-9])", 1, 0.05);
   run(moved(R"("displacement": [0.02, 0], "ramp": 0.2)"), R"("/prescribed/0/displacement": [0.04, 0])", 0.6,
       0.03);
   run(moved(R"("displacement": [0.02, 0], "ramp": 1)"), R"("/prescribed/0/displacement": [0.03, 0])", 1,

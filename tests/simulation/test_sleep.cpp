@@ -237,6 +237,20 @@ TEST_CASE("what is driven or loaded by the clock stays awake, and so does what i
   CHECK(simulation.body_motion(number_of(simulation, "b0_2")).velocity.y != 0);
 }
 
+TEST_CASE("a body stays awake until the ramp that a stage began is over", "[simulation][sleep]") {
+  WorkingScene text;
+  text.bodies = box("block", 0, 0, 1, 1, R"("surfaces": {"below": [0]})");
+  text.rest = R"("damping": 100, "sleep": {}, "prescribed": [{"body": "block", "surface": "below",
+                 "stiffness": 1e9, "displacement": [0, 0]}],
+                 "stages": [{"name": "on", "from": 1, "set": {"/prescribed/0/displacement": [1e-5, 0],
+                                                              "/prescribed/0/ramp": 1.5}}],)";
+  text.time = R"({"end": 4})";
+  Simulation simulation(text.read(), {});
+  finish(simulation);
+  CHECK(simulation.body_motion(0).displacement.x == Approx(1e-5).epsilon(1e-3));
+  CHECK(simulation.summary().sleep->islands == 2);  // before the ramp and after it
+}
+
 TEST_CASE("a body that sleeps under a load stands still to whoever looks", "[simulation][sleep]") {
   const char* loads[] = {
       R"("loads": [{"body": "block", "point": [0.5, 1], "force": [0, -5000]}],)",
