@@ -182,8 +182,9 @@ Usage usage_of_safety() {
       "safety", "SCENE [options]",
       "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and\n"
       "of materials that have them, are divided by a factor until the scene collapses, by bisection, each\n"
-      "time from the same settled geometry and for as long as the scene lasts, or up to eight times as long\n"
-      "where that does not tell. Writes safety.csv, safety.svg and how it fails, mechanism.svg, to a "
+      "time from the same settled geometry (where bonds may form from where bodies are drawn) and for as\n"
+      "long as the scene lasts, or up to eight times as long where that does not tell. Writes safety.csv, "
+      "safety.svg and how it fails, mechanism.svg, to a "
       "folder:\n"
       "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
       "SCENE",

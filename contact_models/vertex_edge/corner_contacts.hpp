@@ -229,6 +229,7 @@ class CornerFinder {
   /// slack alone; or they are no further along the sides than they are deep, or than bonds reach that hold
   /// both.
   static bool mutual(const PiecePairGeometry& geometry, const CornerContact& p, const CornerContact& q) {
+    if (p.past_cut || q.past_cut) return false;  // it stands on the other face of a reflex corner, or nowhere
     if (p.vertex_body == q.vertex_body || geometry.piece[0].is_strip() || geometry.piece[1].is_strip())
       return false;
     const auto at_start = [&](const CornerContact& contact, const CornerContact& other) {

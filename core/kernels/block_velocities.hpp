@@ -41,7 +41,6 @@ class BlockVelocities {
   BlockVelocities(const BlockUpdate& update, const BlockSums& sums)
       : keep_(update.keep),
         gain_(update.gain),
-        share_of_after_(update.share_of_after),
         even_(update.even_steps),
         gravity_{update.gravity_x, update.gravity_y},
         across_(sums.across),
@@ -59,7 +58,7 @@ class BlockVelocities {
     momentum_ += momentum;
     if (even_) across_.translation += momentum * next_v;
     if constexpr (damped) {
-      const Pair at = block.mass * (v + share_of_after_ * (next_v - v));
+      const Pair at = block.mass * (v + half * (next_v - v));
       behind_.translation += at * v;
       ahead_.translation += at * next_v;
     }
@@ -68,7 +67,7 @@ class BlockVelocities {
       const double before = now.spin, next = keep_ * before + gain_ * torque(now, f) / block.inertia();
       if (even_) across_.rotation += block.inertia() * before * next;
       if constexpr (damped) {
-        const double at = block.inertia() * (before + share_of_after_ * (next - before));
+        const double at = block.inertia() * (before + half * (next - before));
         behind_.rotation += at * before;
         ahead_.rotation += at * next;
       }
@@ -86,7 +85,7 @@ class BlockVelocities {
       across_.strain += rate * moment;
     }
     if constexpr (damped) {
-      times_symmetric(rate + share_of_after_ * (next_rate - rate), &block.moment_xx, moment);
+      times_symmetric(rate + half * (next_rate - rate), &block.moment_xx, moment);
       behind_.strain += rate * moment;
       ahead_.strain += next_rate * moment;
     }
@@ -100,6 +99,9 @@ class BlockVelocities {
   }
 
  private:
+  /// Damping is taken with the mean of both velocities, also where steps are uneven.
+  static constexpr double half = 0.5;
+
   /// Row by row of a matrix times the symmetric one of which xx, xy, yy are given.
   static void times_symmetric(const Quad& rows, const double* symmetric, Quad& product) {
     Pair first, second;
@@ -110,7 +112,7 @@ class BlockVelocities {
         __builtin_shufflevector(rows, rows, 1, 1, 3, 3) * __builtin_shufflevector(second, second, 0, 1, 0, 1);
   }
 
-  double keep_, gain_, share_of_after_;
+  double keep_, gain_;
   bool even_;
   Pair gravity_, momentum_;
   ProductRows across_, behind_, ahead_;

@@ -84,7 +84,7 @@ struct BlockSums {
   double kinetic = 0;              ///< J/m, of uneven steps
   double momentum[2] = {0, 0};     ///< kg/s, m v₋
   VelocityProducts across;         ///< v₋·M v₊ of even steps, twice the kinetic energy
-  VelocityProducts behind, ahead;  ///< v·M v₋ and v·M v₊ with v at t_n, where damped
+  VelocityProducts behind, ahead;  ///< v·M v₋ and v·M v₊ with v = (v₋ + v₊)/2, where damped
 
   double all_kinetic() const { return kinetic + across.all() / 2; }
 };

@@ -65,16 +65,19 @@ class Reduction {
     scene_.time.end *= longest;
     run_.threads = settings.threads;
     Simulation whole(with_reduced_strength(scene_, 1), run_);
+    const bool as_drawn = may_bond(scene_);
     const Pieces drawn(whole);
     const std::vector<Vec2> began = drawn.places(whole);
+    if (as_drawn) stand(whole);
     settled_ = whole.settle(settings_.interrupted);
     warnings_ = whole.summary().warnings;
-    warn_of_gone(drawn.gone(drawn.motions(whole, began)));
+    if (!as_drawn) {
+      warn_of_gone(drawn.gone(drawn.motions(whole, began)));
+      stand(whole);
+    }
     warn_of_locking(whole);
     warn_of_brittle_bonds(whole.deepest_overlap().penetration);
     geometry_ = whole.geometry();
-    stood_ = parts_of(whole);
-    pieces_.emplace(whole);
     warn_of_short_runs();
     warn_of_held_friction(whole);
   }
@@ -100,6 +103,12 @@ class Reduction {
   }
 
  private:
+  /// All runs start from there, and motions count from it.
+  void stand(const Simulation& simulation) {
+    stood_ = parts_of(simulation);
+    pieces_.emplace(simulation);
+  }
+
   /// What fell before there was a geometry to fall from stands all the better where it lies.
   void warn_of_gone(const std::vector<std::size_t>& bodies) {
     if (bodies.empty()) return;
@@ -128,6 +137,8 @@ class Reduction {
         wanted = std::max(wanted, due);
     }
     if (wanted == 0) return;
+    const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);  // the second
+    wanted = digit * std::ceil(wanted / digit * (1 - 1e-9));
     warnings_.push_back(fmt::format(
         "cohesion of an interface is lost where it breaks before friction bears its part: the factor "
         "may be below that of limit equilibrium; `cohesive_overlap` with a softening_slip of {:.2g} m "
@@ -159,8 +170,8 @@ class Reduction {
         if (out.x * face[body]->x + out.y * face[body]->y > one_face) continue;
         warnings_.push_back(fmt::format(
             "'{}' stands on several faces, and friction is held without limit while the scene settles: what "
-            "it lets go of at t = 0 comes upon bonds at once, and the factor may be a few per cent less than "
-            "that of limit equilibrium; see what it is with /settle/hold_stick = false",
+            "it lets go of at t = 0 comes upon bonds at once, and the factor may be less than that of limit "
+            "equilibrium, by a tenth and more; see what it is with /settle/hold_stick = false",
             scene_.bodies[body].name));
         return;
       }

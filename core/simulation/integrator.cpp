@@ -76,9 +76,8 @@ void impose_supports(const Body& body, double density, const Support& support,
   add(after.rate, impose(support.rotation, inertia, turning, turning_before) - turning, spin);
 }
 
-/// Velocity at t_n between those of the half steps behind and ahead; ½(v₋ + v₊) for equal steps.
-BodyMotion velocity_at_step(const BodyMotion& p, const BodyMotion& q, const StepConditions& conditions) {
-  const double share = share_of_after(conditions);
+/// Between the velocities of the half steps behind and ahead: that at t_n for share_of_after().
+BodyMotion velocity_between(const BodyMotion& p, const BodyMotion& q, double share) {
   const auto between = [&](double before, double after) { return before + share * (after - before); };
   BodyMotion result = q;
   result.velocity = {between(p.velocity.x, q.velocity.x), between(p.velocity.y, q.velocity.y)};
@@ -123,16 +122,17 @@ void accelerate_whole(const Body& body, std::uint32_t index, const Support& supp
   const BodyMotion before = now;
   accelerate_freely(body, motion.forces[index], conditions, update, now);
   impose_supports(body, density, support, conditions, update, before, now, work);
-  BodyMotion middle = velocity_at_step(before, now, conditions);
+  BodyMotion middle = velocity_between(before, now, share_of_after(conditions));
   work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
   if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
   motion.leave_velocity(index, {middle.velocity, middle.rate});
   work.external_work += body.mass * gravity_work(conditions, before.velocity);
   if (conditions.damping > 0) {
+    const BodyMotion mean = velocity_between(before, now, 0.5);  // of uneven steps not that at t_n
     work.damping_loss +=
-        conditions.damping * kinetic_energy(body, density, middle, before) * conditions.dt_behind;
+        conditions.damping * kinetic_energy(body, density, mean, before) * conditions.dt_behind;
     work.damping_loss_ahead +=
-        conditions.damping * kinetic_energy(body, density, middle, now) * conditions.dt_ahead;
+        conditions.damping * kinetic_energy(body, density, mean, now) * conditions.dt_ahead;
   }
   if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_ahead / 2);
 }

@@ -128,11 +128,15 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                   kinetic_at_step(updated.sums, conditions);
   work.external_work += gravity_work(conditions, momentum);
   if (conditions.damping > 0) {
-    const double rest = 1 - share;
-    const double behind = mass.product(model, index, first, middle, before) + rest * updated.sums.before +
-                          share * updated.sums.across;
-    const double ahead = mass.product(model, index, first, middle, after) + rest * updated.sums.across +
-                         share * updated.sums.after;
+    // With the mean of both velocities, which is not that at t_n where steps are uneven.
+    static thread_local std::vector<Vec2> mean;
+    mean.assign(middle.begin(), middle.end());
+    for (std::size_t i = 0; share != 0.5 && i < count; ++i)
+      mean[i] = {(before[i].x + after[i].x) / 2, (before[i].y + after[i].y) / 2};
+    const double behind = mass.product(model, index, first, mean, before) + 0.5 * updated.sums.before +
+                          0.5 * updated.sums.across;
+    const double ahead =
+        mass.product(model, index, first, mean, after) + 0.5 * updated.sums.across + 0.5 * updated.sums.after;
     work.damping_loss += conditions.damping * behind * conditions.dt_behind / 2;
     work.damping_loss_ahead += conditions.damping * ahead * conditions.dt_ahead / 2;
   }

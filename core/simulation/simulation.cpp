@@ -24,6 +24,8 @@ Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
   return motion;
 }
 
+}  // namespace
+
 bool may_bond(const Scene& scene) {
   if (scene.contact.component == nullptr) return false;
   const Component& law = *scene.contact.component->component;
@@ -35,8 +37,6 @@ bool may_bond(const Scene& scene) {
     return false;
   });
 }
-
-}  // namespace
 
 Simulation::Simulation(Scene scene, const RunSettings& settings)
     : state_(std::make_unique<State>(std::move(scene), settings)) {

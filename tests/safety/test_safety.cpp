@@ -190,6 +190,21 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
   CHECK(in_corner("", true).empty());
 }
 
+TEST_CASE("A bonded scene that slides while it settles has its factor below 1", "[safety]") {
+  const double slope = 35 * degree, factor = 0.9, weight = 2300 * 9.81 * 2;
+  const double cohesion = (factor * std::sin(slope) - std::tan(30 * degree) * std::cos(slope)) * weight / 2;
+  Scene scene = from_text(fmt::format(
+      fmt::runtime(rock_scene), "cohesive_overlap", 30,
+      fmt::format(R"(, "cohesion": {}, "softening_slip": 1e-3)", cohesion),
+      R"({"name": "base", "polygon": [[-4, -1], [4, -1], [4, 0], [-4, 0]], "material": "rock", "fixed": true},
+         {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})"));
+  scene.gravity = {-9.81 * std::sin(slope), -9.81 * std::cos(slope)};
+  scene.settle->hold_stick = false;
+  const Safety safety = factor_of_safety(scene, {});
+  REQUIRE(safety.factor());
+  CHECK(*safety.factor() == Approx(factor).epsilon(0.02));
+}
+
 TEST_CASE("Strength is that of interfaces and of materials, and a scene without any is refused", "[safety]") {
   const Scene scene = shipped("stick_31deg");
   const Scene reduced = with_reduced_strength(scene, 2);

@@ -300,6 +300,26 @@ TEST_CASE("a stage that changes nothing changes nothing, whatever lasts from ste
   CHECK(with.residual <= without.residual + 1e-4);
 }
 
+TEST_CASE("what global damping takes is known where steps are uneven", "[simulation][stages]") {
+  const std::string cover = GENERATE("rigid", "block", "hexagonal");
+  CAPTURE(cover);
+  WorkingScene text;
+  text.cover = cover == "hexagonal" ? "block" : cover;
+  text.gravity = "[5, -3]";
+  text.bodies =
+      box("a", 0, 0, 2, 1,
+          cover == "hexagonal" ? R"("surfaces": {"left": [3]}, "cover": {"model": "hexagonal", "size": 0.45})"
+                               : R"("surfaces": {"left": [3]})");
+  text.rest =
+      R"("prescribed": [{"body": "a", "surface": "left", "stiffness": 1e9, "displacement": [1e-3, 0]}],
+                 "stages": [{"name": "damped", "from": 0.01141, "set": {"/damping": 1000}}],)";
+  text.time = R"({"end": 0.1, "dt": 1e-4})";
+  text.output = R"({"history": 0.0005})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.ledger().global_damping_loss > 1);
+  CHECK(simulation.summary().largest_residual_share < 1e-3);
+}
+
 TEST_CASE("a stage under kinetic damping takes no velocity that grows", "[simulation][stages]") {
   for (const char* cover : {"rigid", "block"}) {
     WorkingScene text;
