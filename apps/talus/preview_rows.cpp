@@ -63,7 +63,8 @@ void print_flutter(const Preview& foreseen) {
 }
 
 void print_cost(const Scene& scene, const Preview& foreseen) {
-  std::string steps = fmt::format("about {:.0f} of {:.6g} s", foreseen.steps, foreseen.dt);
+  std::string steps = fmt::format("about {:.0f}{} of {:.6g} s", foreseen.steps,
+                                  foreseen.stages.empty() ? "" : ", the first", foreseen.dt);
   if (scene.settle) steps += fmt::format(", and up to {:.0f} to settle", foreseen.settle_steps);
   print_row("steps", steps);
   if (!scene.time.dt && foreseen.dt_limiter.starts_with("speed"))

@@ -79,8 +79,16 @@ void print_time(const Scene& scene, const Simulation& simulation) {
     print_row("settle",
               fmt::format("{:.6g} s with {}", scene.settle->duration, damping_text(scene.settle->damping)));
   }
-  for (const Stage& stage : scene.stages)
-    print_row("stage", fmt::format("'{}' from {:.6g} s", stage.name, stage.from));
+}
+
+void print_stages(const Scene& scene, const Preview& foreseen) {
+  for (std::size_t i = 0; i < scene.stages.size(); ++i) {
+    const Stage& stage = scene.stages[i];
+    const CriticalStep& bound = foreseen.stages[i];
+    const double dt = scene.time.dt.value_or(automatic_step(bound, scene.time.safety));
+    print_row("stage", fmt::format("'{}' from {:.6g} s{}", stage.name, stage.from,
+                                   std::isfinite(dt) ? fmt::format(", step {:.6g} s", dt) : ""));
+  }
 }
 
 void print_scene(Simulation& simulation, const std::vector<std::string>& libraries) {
@@ -94,6 +102,7 @@ void print_scene(Simulation& simulation, const std::vector<std::string>& librari
             scene.contact.component == nullptr ? "none" : scene.contact.component->component->name);
   print_time(scene, simulation);
   const Preview foreseen = preview(simulation, trial_seconds);
+  print_stages(scene, foreseen);
   print_preview(scene, foreseen);
   print_row("monitors", listed(monitor_columns(scene)));
   for (const UsedLibrary& used : used_libraries(scene)) {

@@ -131,6 +131,32 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
+/// Steps of all stages, and which of these a fixed step is too long for.
+void foresee_stages(Simulation& simulation, Preview& preview) {
+  const Scene& scene = simulation.scene();
+  const double at_first = automatic_step(simulation.present_bound(), scene.time.safety);
+  double dt = preview.dt, from = 0;
+  const auto add_steps = [&](double until) {
+    preview.steps += std::max(1.0, std::ceil((until - from) / dt));
+    from = until;
+  };
+  for (std::size_t i = 0; i < scene.stages.size(); ++i) {
+    const Stage& stage = scene.stages[i];
+    add_steps(stage.from);
+    const CriticalStep& bound = preview.stages.emplace_back(simulation.bound_of_stage(i));
+    if (!scene.time.dt) {
+      const double automatic = automatic_step(bound, scene.time.safety);
+      dt = automatic == at_first ? preview.dt : std::min(automatic, scene.output.history);
+    } else if (dt > bound.dt) {
+      preview.warnings.push_back(
+          fmt::format("from stage '{}' on the fixed step {:.3g} s is {:.2g} of the critical {:.3g} s ({}): "
+                      "the run may blow up",
+                      stage.name, dt, dt / bound.dt, bound.dt, limiter_of(scene, bound)));
+    }
+  }
+  add_steps(scene.time.end);
+}
+
 }  // namespace
 
 Preview preview(Simulation& simulation, double trial_seconds) {
@@ -153,7 +179,7 @@ Preview preview(Simulation& simulation, double trial_seconds) {
   const RunSummary summary = simulation.summary();
   preview.dt = summary.dt;
   preview.dt_limiter = summary.dt_limiter;
-  preview.steps = std::max(1.0, std::ceil(scene.time.end / preview.dt));
+  foresee_stages(simulation, preview);
   // Without rows of the history to meet on the way.
   const double unhindered =
       scene.time.dt.value_or(automatic_step(simulation.present_bound(), scene.time.safety));

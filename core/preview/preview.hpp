@@ -29,8 +29,9 @@ struct Preview {
   std::size_t pairs = 0, contacts = 0;  ///< candidate pairs and contacts at t = 0, before any settling
   double overlap = 0;                   ///< m, the deepest contact among these
   std::uint32_t overlap_a = 0, overlap_b = 0;
-  double dt = 0;           ///< s, of the first step
-  std::string dt_limiter;  ///< in words
+  double dt = 0;                     ///< s, of the first step
+  std::string dt_limiter;            ///< in words
+  std::vector<CriticalStep> stages;  ///< the bound of the step in each of them, if bodies met as at t = 0
   double steps = 0, settle_steps = 0;
   std::uint64_t trial_steps = 0;
   double trial_seconds = 0;      ///< what these steps took, here and with one thread

@@ -185,10 +185,15 @@ double Simulation::last_dt() const {
   return state_->dt_behind;
 }
 CriticalStep Simulation::present_bound() const {
-  CriticalStep bound = state_->critical;
-  bound.body = state_->numbering.outside(bound.body);
-  bound.spring_body = state_->numbering.outside(bound.spring_body);
-  return bound;
+  return state_->with_numbers_outside(state_->critical);
+}
+CriticalStep Simulation::bound_of_stage(std::size_t stage) {
+  State& s = *state_;
+  const StageSettings& settings = s.scene.stages[stage].settings;
+  s.contacts.set_interfaces(settings.interface_values);
+  const StepVote votes(s.scene, settings, s.model, s.contacts);
+  s.contacts.set_interfaces(s.stage.interface_values);
+  return s.with_numbers_outside(votes.among(s.contacts.lightest_neighbours()));
 }
 double Simulation::body_width(std::size_t body) const {
   return state_->model.bodies[state_->numbering.inside(body)].width;

@@ -167,13 +167,15 @@ class Simulation {
   /// t_n, stresses and contacts are then those of an earlier one.
   bool look_now();
 
-  double time() const;                    ///< s
-  bool history_due() const;               ///< whether this is an output time of the history
-  bool frame_due() const;                 ///< whether it is one of the frames
-  bool started() const;                   ///< whether t = 0 was reached
-  double critical_dt() const;             ///< s, bound over strain modes and contacts, whoever meets whom
-  double last_dt() const;                 ///< s, of the step that led here; 0 at the start
-  CriticalStep present_bound() const;     ///< of the stable step, with the neighbours that bodies have now
+  double time() const;                 ///< s
+  bool history_due() const;            ///< whether this is an output time of the history
+  bool frame_due() const;              ///< whether it is one of the frames
+  bool started() const;                ///< whether t = 0 was reached
+  double critical_dt() const;          ///< s, bound over strain modes and contacts, whoever meets whom
+  double last_dt() const;              ///< s, of the step that led here; 0 at the start
+  CriticalStep present_bound() const;  ///< of the stable step, with the neighbours that bodies have now
+  /// The same, were a stage to hold now.
+  CriticalStep bound_of_stage(std::size_t stage);
   double automatic_dt() const;            ///< s, what "auto" takes as long as nothing moves too fast for it
   std::string automatic_limiter() const;  ///< who limits automatic_dt(), in words
   std::string model_hash() const;         ///< of the bodies as they were laid, before they moved

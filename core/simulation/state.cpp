@@ -264,6 +264,12 @@ bool Simulation::State::enter_stage(const StageSettings& next) {
   return changed;
 }
 
+CriticalStep Simulation::State::with_numbers_outside(CriticalStep bound) const {
+  bound.body = numbering.outside(bound.body);
+  bound.spring_body = numbering.outside(bound.spring_body);
+  return bound;
+}
+
 double Simulation::State::nominal_dt() const {
   if (scene.time.dt) return *scene.time.dt;
   const double dt = automatic_step(critical, scene.time.safety);

@@ -107,6 +107,7 @@ struct Simulation::State {
   std::string limiter() const;  ///< of the plan's step, in words
   void vote_again();
   double nominal_dt() const;
+  CriticalStep with_numbers_outside(CriticalStep bound) const;
   double allowed_dt() const;
   void refuse_uncountable_steps() const;
 

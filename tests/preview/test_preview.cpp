@@ -69,6 +69,25 @@ TEST_CASE("A preview counts what a run will do", "[preview]") {
   CHECK(static_cast<double>(simulation.summary().steps) == Approx(foreseen.steps).epsilon(0.01));
 }
 
+TEST_CASE("A preview knows what stages do to the step", "[preview]") {
+  WorkingScene text = resting();
+  text.rest =
+      R"("stages": [{"name": "stiff", "from": 0.05, "set": {"/interfaces/0/normal_stiffness": 1e13}}],)";
+  const Preview foreseen = of(text);
+  CHECK(foreseen.warnings.empty());
+  REQUIRE(foreseen.stages.size() == 1);
+  Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  CHECK(static_cast<double>(simulation.summary().steps) == Approx(foreseen.steps).epsilon(0.02));
+  CHECK(foreseen.steps > 2 * of(resting()).steps);
+
+  text.time = R"({"end": 0.1, "dt": 5e-5})";
+  CHECK(warned(text, "from stage 'stiff' on the fixed step"));
+  text.rest = R"("stages": [{"name": "same", "from": 0.05, "set": {"/gravity": [0, -9]}}],)";
+  CHECK_FALSE(warned(text, "fixed step"));
+}
+
 TEST_CASE("A preview compares the stiffness of interfaces with E/h", "[preview]") {
   const Preview foreseen = of(resting());
   REQUIRE(foreseen.softest);
