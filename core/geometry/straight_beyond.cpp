@@ -61,11 +61,14 @@ class Outline {
 
   /// The other bank of a cut, where it ends (`forward`) or starts at a corner.
   std::optional<std::uint32_t> across(std::uint32_t cut, const BoundaryCorner& corner, bool forward) const {
-    const auto number = [&](std::uint32_t side) { return corners_[side].cut; };
+    const auto by_number = [&](std::uint32_t p, std::uint32_t q) {
+      return corners_[p].cut < corners_[q].cut;
+    };
     const double near = 1e-9 * corners_[cut].length;
-    for (const std::uint32_t side : std::ranges::equal_range(banks_, corners_[cut].cut, {}, number)) {
-      const BoundaryCorner& at = corners_[forward ? next_[side] : side];
-      if (side != cut && size_of({at.x - corner.x, at.y - corner.y}) <= near) return side;
+    const auto [begin, end] = std::equal_range(banks_.begin(), banks_.end(), cut, by_number);
+    for (auto side = begin; side != end; ++side) {
+      const BoundaryCorner& at = corners_[forward ? next_[*side] : *side];
+      if (*side != cut && size_of({at.x - corner.x, at.y - corner.y}) <= near) return *side;
     }
     return std::nullopt;
   }
