@@ -183,9 +183,8 @@ Usage usage_of_safety() {
       "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and\n"
       "of materials that have them, are divided by a factor until the scene collapses, by bisection, each\n"
       "time from the same settled geometry (where bonds may form from where bodies are drawn) and for as\n"
-      "long as the scene lasts, or up to eight times as long where that does not tell. Writes safety.csv, "
-      "safety.svg and how it fails, mechanism.svg, to a "
-      "folder:\n"
+      "long as the scene lasts, or up to eight times as long where that does not tell. Writes safety.csv,\n"
+      "safety.svg and how it fails, mechanism.svg, to a folder:\n"
       "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
       "SCENE",
       "  talus safety scenes/stick_31deg.json\n"
