@@ -3,6 +3,7 @@
 #include "vertex.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct CornerContact {
   std::uint32_t key;          ///< the vertex, known again at the next step
   std::uint32_t side;         ///< of the other body's piece
   double depth;               ///< m, behind the side; negative across an intact bond
+  double bearing;             ///< m, of the depth what the side pushes back with
   double lever;               ///< foot of the vertex along the side, 0 to 1 on it
   double tributary;           ///< m, length of boundary whose load the vertex carries
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
@@ -73,7 +75,7 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 1, false, true}, found);
+              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, true}, found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -148,12 +150,15 @@ class CornerFinder {
       if (!ends_side || past > edge || !(contact.depth > 0)) return;
       contact.past_cut = true;
     }
+    const std::array<Bound, 2> tips = tips_at_cuts(pieces, other, contact, at);
+    if (tips[0].past > contact.slack || tips[1].past > contact.slack) return;
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
+    contact.bearing = contact.depth;
     contact.lever = other.lever(contact.side, at);
     if (at_cut && !contact.past_cut && is_before_another(pieces, at, outward, contact)) return;
     contact.tributary = tributary_length(pieces, contact);
     if (contact.depth > bond_reach.held && !own.is_strip()) {
-      const double bears = share_that_bears(own, other, vertex, contact);
+      const double bears = share_that_bears(own, other, vertex, contact, tips);
       if (!(bears > 0)) return;
       contact.tributary *= bears;
     }
@@ -162,27 +167,53 @@ class CornerFinder {
     found.push_back(contact);
   }
 
+  /// An edge beside a side, and how far past it a vertex is, m; negative: behind it.
+  struct Bound {
+    Point normal{0, 0};
+    double past = 0;
+  };
+
+  /// Of the corners at the ends of a side that point outward, and in which a cut of the body ends, the edges
+  /// that other pieces have.
+  static std::array<Bound, 2> tips_at_cuts(std::span<const PiecePairGeometry> pieces, const Piece& other,
+                                           const CornerContact& contact, Point at) {
+    std::array<Bound, 2> bounds;
+    if (other.is_strip()) return bounds;
+    const std::uint32_t start = contact.side, end = other.next(contact.side);
+    for (const std::uint32_t corner : {start, end}) {
+      if (!other.is_cut(corner == start ? other.previous(start) : end)) continue;
+      const std::optional<Vertex> tip = Vertices(pieces, 1 - contact.vertex_body).at(other, corner);
+      if (!tip) continue;
+      const Point along = corner == start ? tip->before : tip->after, normal{along.y, -along.x};
+      bounds[corner == start ? 0 : 1] = {normal, dot(at - other.at(corner), normal)};
+    }
+    return bounds;
+  }
+
   /// A vertex that is past the end of its side bears only where an edge of its own goes on into the other
   /// body: by how deep that comes in, over its own depth. At a sharp tip it does not come in at all.
   static double share_that_bears(const Piece& own, const Piece& other, const Vertex& vertex,
-                                 const CornerContact& contact) {
+                                 const CornerContact& contact, const std::array<Bound, 2>& tips) {
     const std::uint32_t v = contact.vertex;
     const Point at = own.at(v), edges[] = {-1.0 * vertex.before, vertex.after};
     const double lengths[] = {vertex.divided ? vertex.shorter : own.length(own.previous(v)),
                               vertex.divided ? vertex.shorter : own.length(v)};
     double least = 1;
-    for (std::uint32_t k = 0; k < other.size(); ++k) {
-      const double past = -other.depth(k, at);
-      if (k == contact.side || !other.real(k) || !(past > 0)) continue;
+    const auto lessen = [&](const Bound& bound) {
+      if (!(bound.past > 0)) return;
       double most = 0;
       for (int i = 0; i < 2; ++i) {
-        const double inward = -dot(edges[i], other.normal(k));
-        if (!(inward * lengths[i] > past)) continue;
-        const double depth = other.depth(contact.side, at + past / inward * edges[i]);
+        const double inward = -dot(edges[i], bound.normal);
+        if (!(inward * lengths[i] > bound.past)) continue;
+        const double depth = other.depth(contact.side, at + bound.past / inward * edges[i]);
         most = std::max(most, std::min(1.0, depth / contact.depth));
       }
       least = std::min(least, most);
+    };
+    for (std::uint32_t k = 0; k < other.size(); ++k) {
+      if (k != contact.side && other.real(k)) lessen({other.normal(k), -other.depth(k, at)});
     }
+    for (const Bound& tip : tips) lessen(tip);
     return least;
   }
 

@@ -1,6 +1,7 @@
 // The contact law of DDA: penalty springs between a vertex and an edge. See README.md beside.
 
 #include "corner_contacts.hpp"
+#include "reflex_corners.hpp"
 #include "springs.hpp"
 
 #include <talus/library.hpp>
@@ -153,73 +154,17 @@ class VertexEdge final : public ContactModel {
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
     drop_repeated(all, work.found);
-  }
-
-  /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep, and
-  /// on the sides that reflex corners lead to from there.
-  static void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
-    std::erase_if(found, [&](const CornerContact& contact) {
-      return contact.past_cut && !stands_past_cut(pieces, contact, found);
+    fade_further_faces(all, work.found);
+    std::erase_if(work.found, [&](const CornerContact& contact) {
+      return contact.bearing < contact.depth && !(contact.bearing > 0) && !is_bonded(contact, work);
     });
-    for (auto contact = found.begin(); contact != found.end(); ++contact) {
-      const auto nearest = std::find_if(found.begin(), contact, [&](const CornerContact& other) {
-        return other.stands && other.key == contact->key;
-      });
-      contact->stands = nearest == contact || is_nearer(*contact, *nearest);
-      if (contact->stands && nearest != contact) nearest->stands = false;
-    }
-    const auto led_to = [&](const CornerContact& contact) {
-      return !contact.stands && std::ranges::any_of(found, [&](const CornerContact& other) {
-        return other.stands && other.key == contact.key && in_reflex_corner(pieces, contact, other);
-      });
-    };
-    for (auto next = found.begin(); next != found.end();) {
-      next = std::ranges::find_if(found, led_to);
-      if (next != found.end()) next->stands = true;
-    }
-    std::erase_if(found, [](const CornerContact& contact) { return !contact.stands; });
   }
 
-  /// Past a cut a vertex stands in the reflex corner where that begins, and nowhere else: on its other face,
-  /// too, and within the body.
-  static bool stands_past_cut(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
-                              const std::vector<CornerContact>& found) {
-    const std::uint32_t met = 1 - contact.vertex_body;
-    const Point at = pieces[contact.entry].piece[contact.vertex_body].at(contact.vertex);
-    const auto holds = [&](const PiecePairGeometry& pair) {
-      const Piece& piece = pair.piece[met];
-      for (std::uint32_t k = 0; k < piece.size(); ++k) {
-        if (piece.depth(k, at) < -contact.slack) return false;
-      }
-      return true;
-    };
-    return std::ranges::any_of(found,
-                               [&](const CornerContact& other) {
-                                 return other.key == contact.key && in_reflex_corner(pieces, contact, other);
-                               }) &&
-           std::ranges::any_of(pieces, holds);
-  }
-
-  /// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
-  static bool is_nearer(const CornerContact& contact, const CornerContact& other) {
-    const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
-    if (std::abs(contact.depth - other.depth) > 1e-9 * contact.tributary) return contact.depth < other.depth;
-    return beside(contact) < beside(other);
-  }
-
-  /// Whether the boundary goes on from the one side to the other where it bends inwards.
-  static bool in_reflex_corner(std::span<const PiecePairGeometry> pieces, const CornerContact& p,
-                               const CornerContact& q) {
-    const Piece &one = pieces[p.entry].piece[1 - p.vertex_body],
-                &other = pieces[q.entry].piece[1 - q.vertex_body];
-    if (one.is_strip() || other.is_strip()) return false;  // under load they bend at every corner
-    const auto leads = [](const Piece& from, std::uint32_t side, const Piece& to, std::uint32_t next) {
-      const double near = 1e-9 * std::min(from.length(side), to.length(next));
-      return length(from.at(from.next(side)) - to.at(next)) <= near &&
-             cross(from.tangent(side), to.tangent(next)) < 0 &&
-             dot(from.tangent(side), to.tangent(next)) < straight;
-    };
-    return leads(one, p.side, other, q.side) || leads(other, q.side, one, p.side);
+  static bool is_bonded(const CornerContact& contact, const Workspace& work) {
+    const double side = side_of(contact, work);
+    return std::ranges::any_of(work.old, [&](const SpringHistory& old) {
+      return old.key == 1.0 + contact.key && old.side == side && old.intact == 1;
+    });
   }
 
   static double side_of(const CornerContact& contact, const Workspace& work) {
@@ -325,18 +270,19 @@ class VertexEdge final : public ContactModel {
 
     // A flat contact stands on two such springs, and its ratio is meant of the two together.
     const double carried_mass = pair.reduced_mass / 2;
-    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
+    const double bears = contact.depth > 0 ? contact.bearing / contact.depth : 1;
+    const double dashpot = bears * 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
     // No dashpot pulls, but what a bond would bear as well.
     const bool held = batch.hold_stick && spring.tensile > 0;
     const double viscous =
         held ? dashpot * closing
-             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth + spring.tensile));
+             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.bearing + spring.tensile));
 
     const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
     // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
     const double old_viscous = std::exchange(history.viscous, 0);
     const SpringForce force =
-        spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
+        spring_force(spring, contact.bearing, viscous, history.elastic, slip, batch.hold_stick);
     if (force.breaks) history.intact = 0;
     if (force.normal <= 0 && history.intact == 0) {
       // The force of the step before has worked through half of this one.
@@ -348,7 +294,7 @@ class VertexEdge final : public ContactModel {
 
     history.elastic = force.tangential;
     history.applied = contact.share * force.tangential;
-    const double stored_normal = contact.share * spring.normal * contact.depth * contact.depth / 2;
+    const double stored_normal = contact.share * spring.normal * contact.bearing * contact.depth / 2;
     const double stored_tangential =
         spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
                               : 0;
