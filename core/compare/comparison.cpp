@@ -64,7 +64,8 @@ class SideBySide {
       if (problem) std::rethrow_exception(problem);
     }
     for (std::size_t i = 0; i < order_.scenes.size(); ++i) {
-      comparison_.runs[i].settled_difference = largest_distance(settled_[0], settled_[i]);
+      if (!settled_[0].empty())
+        comparison_.runs[i].settled_difference = largest_distance(settled_[0], settled_[i]);
     }
     std::sort(comparison_.warnings.begin(), comparison_.warnings.end());
   }
@@ -234,6 +235,32 @@ bool Comparison::tolerances_held() const {
   return true;
 }
 
+namespace {
+
+/// Of what is told of a run without being in its rows.
+void warn_of_other_times(const ComparisonOrder& order, Comparison& comparison) {
+  const std::vector<double>& times = comparison.runs[0].result.history.time;
+  for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
+    const auto of_run = [&](const ColumnDeviation& each) {
+      return each.run == run && each.deviation.between_rows;
+    };
+    if (std::ranges::any_of(comparison.deviations, of_run)) {
+      comparison.warnings.push_back(
+          fmt::format("'{}' has rows at other times than '{}': between them one of the two was taken for a "
+                      "line; give both the same /output/history",
+                      comparison.runs[run].value, comparison.runs[0].value));
+    }
+  }
+  for (const double moment : order.moments) {
+    if (row_at(times, moment) || times.empty() || !(moment < times.back())) continue;
+    comparison.warnings.push_back(fmt::format(
+        "--at {}: there is no row of that time, so what is told is on the line between the rows beside it",
+        moment));
+  }
+}
+
+}  // namespace
+
 void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
     if (run > 0) add_deviations(order, comparison, run, comparison.runs[0].result.history, false);
@@ -245,10 +272,11 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
                                                 comparison.runs[run].value, order.reference->file));
   }
   if (order.reference) warn_of_other_units(order, comparison);
+  warn_of_other_times(order, comparison);
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
-    const double end = order.scenes[0].time.end * (1 - 1e-9);
+    const double end = order.scenes[0].time.end;
     const auto ends_early = [&](const Series& series) {
-      return series.time.empty() || !(series.time.back() >= end);
+      return series.time.empty() || !(series.time.back() >= end - time_tolerance(series.time));
     };
     const auto unfinished = [&](const ComparedRun& each) {
       return each.result.end != RunEnd::finished || ends_early(each.result.history);
@@ -330,6 +358,12 @@ Comparison planned(const ComparisonOrder& order) {
 void compare(const ComparisonOrder& order, Comparison& comparison) {
   SideBySide(order, comparison).run();
   count_own_steps(order, comparison);
+  if (order.variation.pointer.starts_with("/settle/") && order.scenes[0].settle) {
+    comparison.warnings.push_back(fmt::format(
+        "all runs settle from what '{}' settled to, so that one with another /settle starts from there, not "
+        "from the scene as drawn; where that matters run each by itself",
+        order.variation.values[0]));
+  }
   evaluate(order, comparison);
 }
 

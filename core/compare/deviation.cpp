@@ -9,6 +9,14 @@ namespace talus {
 
 namespace {
 
+/// The moment at which a run was stopped, where it has a row of that moment alone.
+std::optional<double> stopped_at(const std::vector<double>& times) {
+  if (times.size() < 3) return std::nullopt;
+  const double last = times.back() - times[times.size() - 2],
+               before = times[times.size() - 2] - times[times.size() - 3];
+  return last < (1 - 1e-6) * before ? std::optional(times.back()) : std::nullopt;
+}
+
 /// How many of some times lie within others.
 std::size_t count_within(const std::vector<double>& times, const std::vector<double>& others) {
   if (times.empty() || others.empty()) return 0;
@@ -16,21 +24,55 @@ std::size_t count_within(const std::vector<double>& times, const std::vector<dou
   return static_cast<std::size_t>(std::upper_bound(from, times.end(), others.back()) - from);
 }
 
+struct Curve {
+  const Series& series;
+  std::size_t column;
+
+  const std::vector<double>& time() const { return series.time; }
+  double at_row(std::size_t row) const { return series.values[column][row]; }
+  std::optional<double> at(double moment) const {
+    return interpolate(series.time, series.values[column], moment);
+  }
+};
+
+/// Where both have a value.
+void add_at(double moment, const Curve& one, const Curve& other, Difference& found) {
+  const std::optional<double> value = one.at(moment), expected = other.at(moment);
+  if (!value || !expected) return;
+  found.time.push_back(moment);
+  found.value.push_back(*value - *expected);
+}
+
+Difference at_common_rows(const Curve& one, const Curve& other) {
+  Difference found;
+  for (std::size_t row = 0; row < one.time().size(); ++row) {
+    const auto same = row_at(other.time(), one.time()[row]);
+    if (!same) continue;
+    found.time.push_back(one.time()[row]);
+    found.value.push_back(one.at_row(row) - other.at_row(*same));
+  }
+  // What stopped a run shows best in its last row.
+  for (const Curve* each : {&one, &other}) {
+    const auto stop = stopped_at(each->time());
+    if (stop && !found.time.empty() && *stop > found.time.back()) add_at(*stop, one, other, found);
+  }
+  return found;
+}
+
 }  // namespace
 
 Difference difference(const Series& series, std::size_t column, const Series& other, std::size_t other_column,
                       Between between) {
-  // A run that was stopped has a row of that moment besides.
-  const bool other_is_coarser = between == Between::unknown && count_within(other.time, series.time) + 1 <
-                                                                   count_within(series.time, other.time);
+  const Curve one{series, column}, from{other, other_column};
   Difference found;
-  for (const double time : other_is_coarser ? other.time : series.time) {
-    const std::optional<double> value = interpolate(series.time, series.values[column], time);
-    const std::optional<double> expected = interpolate(other.time, other.values[other_column], time);
-    if (!value || !expected) continue;
-    found.time.push_back(time);
-    found.value.push_back(*value - *expected);
+  if (between == Between::unknown) {
+    found = at_common_rows(one, from);
+    if (found.time.size() > 1 || series.time.size() < 2 || other.time.size() < 2) return found;
+    found = {{}, {}, true};
   }
+  const bool from_is_coarser = between == Between::unknown &&
+                               count_within(other.time, series.time) < count_within(series.time, other.time);
+  for (const double moment : from_is_coarser ? other.time : series.time) add_at(moment, one, from, found);
   return found;
 }
 
@@ -52,6 +94,7 @@ std::optional<Deviation> deviation(const Series& series, std::size_t column, con
   found.final = apart.value.back();
   found.final_time = apart.time.back();
   found.times = apart.time.size();
+  found.between_rows = apart.between_rows;
   found.rms = std::sqrt(squares / static_cast<double>(found.times));
   return found;
 }

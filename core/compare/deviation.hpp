@@ -11,22 +11,25 @@ namespace talus {
 
 /// How one curve parts from another. Signed: this minus the other.
 struct Deviation {
-  double largest = 0;       ///< the one of largest magnitude
-  double largest_time = 0;  ///< s
-  double rms = 0;           ///< over the compared times
-  double final = 0;         ///< at the last compared time
-  double final_time = 0;    ///< s
-  std::size_t times = 0;    ///< how many were compared
+  double largest = 0;         ///< the one of largest magnitude
+  double largest_time = 0;    ///< s
+  double rms = 0;             ///< over the compared times
+  double final = 0;           ///< at the last compared time
+  double final_time = 0;      ///< s
+  std::size_t times = 0;      ///< how many were compared
+  bool between_rows = false;  ///< as Difference
 };
 
 /// What `other` is between its rows: a line, as a reference file is by definition; or another run, of which
 /// nothing is known there.
 enum class Between { line, unknown };
 
-/// `column` of `series` less `other_column` of `other`, as far as both reach, at the times of `series`; where
-/// those of another run are further apart, at them. The other of the two is interpolated linearly.
+/// `column` of `series` less `other_column` of `other`, as far as both reach. From a line: at the times of
+/// `series`. From another run: at the times of which both have a row; where they share no more than one, at
+/// the times of the one with fewer rows, the other interpolated linearly.
 struct Difference {
   std::vector<double> time, value;
+  bool between_rows = false;  ///< whether a run was interpolated
 };
 Difference difference(const Series& series, std::size_t column, const Series& other, std::size_t other_column,
                       Between between);

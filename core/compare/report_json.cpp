@@ -129,10 +129,9 @@ std::string comparison_csv(const Comparison& comparison) {
   for (const double time : comparison.runs[0].result.history.time) {
     text += fmt::format("{}", time);
     for (const ComparedRun& run : comparison.runs) {
-      for (const std::vector<double>& values : run.result.history.values) {
-        const auto value = interpolate(run.result.history.time, values, time);
-        text += value ? fmt::format(",{}", *value) : ",";
-      }
+      const auto row = row_at(run.result.history.time, time);
+      for (const std::vector<double>& values : run.result.history.values)
+        text += row ? fmt::format(",{}", values[*row]) : ",";
     }
     text += '\n';
   }

@@ -53,7 +53,7 @@ bool settle(const Course& course) {
     }
     on = course.goes_on();
   }
-  if (order.after_settling) order.after_settling(simulation);
+  if (settled && order.after_settling) order.after_settling(simulation);
   return on;
 }
 

@@ -152,9 +152,24 @@ Series read_reference_text(std::string_view text, const std::string& name,
   return series;
 }
 
+double time_tolerance(std::span<const double> times) {
+  return times.empty() ? 0 : 5e-6 * std::max(std::abs(times.front()), std::abs(times.back()));
+}
+
+std::optional<std::size_t> row_at(std::span<const double> times, double time) {
+  if (times.empty()) return std::nullopt;
+  const double rounding = 1e-9 * std::max(std::abs(times.front()), std::abs(times.back()));
+  const auto row = std::lower_bound(times.begin(), times.end(), time - rounding);
+  if (row == times.end() || !(*row <= time + rounding)) return std::nullopt;
+  return static_cast<std::size_t>(row - times.begin());
+}
+
 std::optional<double> interpolate(std::span<const double> times, std::span<const double> values,
                                   double time) {
-  if (times.empty() || !(time >= times.front()) || !(time <= times.back())) return std::nullopt;
+  const double little = time_tolerance(times);
+  if (times.empty() || !(time >= times.front() - little) || !(time <= times.back() + little))
+    return std::nullopt;
+  time = std::clamp(time, times.front(), times.back());
   const auto above =
       static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin());
   if (times[above] == time) return values[above];

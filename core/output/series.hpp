@@ -31,7 +31,13 @@ Series read_series_text(std::string_view text, const std::string& name);
 Series read_reference_text(std::string_view text, const std::string& name,
                            std::span<const std::string> columns);
 
-/// Linear between the rows around `time`; nothing outside of their range.
+/// By how much a time that somebody wrote with six digits may be off, s.
+double time_tolerance(std::span<const double> times);
+
+/// The row of a time, as far as rounding goes, s; nothing where there is none.
+std::optional<std::size_t> row_at(std::span<const double> times, double time);
+
+/// Linear between the rows around `time`; nothing outside of their range, but for time_tolerance().
 std::optional<double> interpolate(std::span<const double> times, std::span<const double> values, double time);
 
 }  // namespace talus

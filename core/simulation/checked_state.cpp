@@ -164,7 +164,7 @@ void Simulation::State::check_step() const {
                       time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration, visible));
     }
     throw NumericalTrouble(
-        fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.0f} % "
+        fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.3g} % "
                     "of the smaller width "
                     "{:.3g} m; raise normal_stiffness of their interface, take a smaller time step, or part "
                     "them at the start",

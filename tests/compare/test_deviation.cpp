@@ -65,6 +65,40 @@ TEST_CASE("runs are compared at the times that both have written down", "[compar
   CHECK(std::abs(deviation(fine, 0, coarse, 0, Between::line)->largest) == Approx(0.25));
 }
 
+TEST_CASE("runs whose rows fall together now and then are compared there alone", "[compare][deviation]") {
+  const auto bent = [](double step) {
+    Series series{{}, {"block.speed [m/s]"}, {{}}};
+    for (int i = 0; i * step <= 1 + 1e-12; ++i) {
+      series.time.push_back(i * step);
+      series.values[0].push_back(std::abs(i * step - 0.5));  // it turns at a row of neither
+    }
+    return series;
+  };
+  const Series some = bent(0.06), others = bent(0.04);
+  const auto found = deviation(some, 0, others, 0, Between::unknown);
+  REQUIRE(found);
+  CHECK(found->times == 9);
+  CHECK(std::abs(found->largest) < 1e-12);
+  CHECK_FALSE(found->between_rows);
+  // Where only the start falls together there is nothing but the line between rows.
+  Series aside = others;
+  for (std::size_t i = 1; i < aside.time.size(); ++i) aside.time[i] += 0.001;
+  const auto guessed = deviation(some, 0, aside, 0, Between::unknown);
+  REQUIRE(guessed);
+  CHECK(guessed->times > 9);
+  CHECK(guessed->between_rows);
+}
+
+TEST_CASE("a curve written with six digits goes on for as long as the run that it was",
+          "[compare][deviation]") {
+  const Series run = straight({0, 1 / 3.0, 2 / 3.0}, 0, 1),
+               reference = straight({0, 0.333333, 0.666666}, 0, 1);
+  const auto found = deviation(run, 0, reference, 0, Between::line);
+  REQUIRE(found);
+  CHECK(found->times == 3);
+  CHECK(found->final_time == run.time.back());
+}
+
 TEST_CASE("the moment at which a run was stopped is compared, too", "[compare][deviation]") {
   const Series baseline{{0, 1, 2, 3}, {"block.speed [m/s]"}, {{0, 0, 0, 0}}};
   const Series stopped{{0, 1, 1.5}, {"block.speed [m/s]"}, {{0, 0, 7}}};

@@ -52,7 +52,7 @@ TEST_CASE("compare.csv puts the runs side by side", "[compare][report]") {
         "t [s],overlap_area/block.speed [m/s],vertex_edge/block.speed [m/s]\n0,0,0\n1,1,1.25\n2,2,1.75\n");
   comparison.runs[1].result.history = {{0, 1.5}, {"block.speed [m/s]"}, {{0, 3}}};
   CHECK(comparison_csv(comparison) ==
-        "t [s],overlap_area/block.speed [m/s],vertex_edge/block.speed [m/s]\n0,0,0\n1,1,2\n2,2,\n");
+        "t [s],overlap_area/block.speed [m/s],vertex_edge/block.speed [m/s]\n0,0,0\n1,1,\n2,2,\n");
 }
 
 TEST_CASE("compare.json holds deviations, cost and tolerances", "[compare][report]") {
@@ -124,8 +124,9 @@ TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") 
   order.scenes[0].tolerances = {{"block", "speed", true, 0.5, {}, {}}};
   Comparison comparison = example_comparison();
   evaluate(order, comparison);
-  REQUIRE(comparison.warnings.size() == 1);
-  CHECK_THAT(comparison.warnings[0], Contains("--reference"));
+  REQUIRE(comparison.warnings.size() == 2);
+  CHECK_THAT(comparison.warnings[0], Contains("--at 0.5: there is no row of that time"));
+  CHECK_THAT(comparison.warnings[1], Contains("--reference"));
 }
 
 TEST_CASE("an order that compares nothing is refused", "[compare][report]") {

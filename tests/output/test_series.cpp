@@ -44,8 +44,21 @@ TEST_CASE("interpolation is linear and stays within the rows", "[output][series]
   CHECK(interpolate(times, values, 2) == 0.0);
   CHECK(interpolate(times, values, 3) == -2.0);
   CHECK_FALSE(interpolate(times, values, 3.1));
-  CHECK_FALSE(interpolate(times, values, -1e-12));
+  CHECK_FALSE(interpolate(times, values, -1e-4));
+  // A time of six digits may lie a little beyond the row that it means.
+  CHECK(interpolate(times, values, -1e-12) == 0.0);
+  CHECK(interpolate(times, values, 3.00001) == -2.0);
   CHECK_FALSE(interpolate({}, {}, 0));
+}
+
+TEST_CASE("a row is found by its time, as far as rounding goes", "[output][series]") {
+  const std::vector<double> times{0, 0.1, 0.1 + 0.2, 0.7};
+  CHECK(row_at(times, 0) == 0u);
+  CHECK(row_at(times, 0.3) == 2u);
+  CHECK(row_at(times, 0.7) == 3u);
+  CHECK_FALSE(row_at(times, 0.2));
+  CHECK_FALSE(row_at(times, 0.8));
+  CHECK_FALSE(row_at({}, 0));
 }
 
 TEST_CASE("a curve to hold runs against has a number in every row", "[output][series]") {

@@ -99,7 +99,7 @@ function costChart() {
         name: run.label,
         index,
         x: run.record.cost.stepping['cpu [s]'],
-        y: entry ? entry.rms : index === 0 && !data.reference ? 0 : null,
+        y: run.record.end !== 'finished' ? null : entry ? entry.rms : index === 0 && !data.reference ? 0 : null,
       };
     })
     .filter((point) => point.y !== null);
