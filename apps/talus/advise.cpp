@@ -77,6 +77,8 @@ int advise_command(const Words& words) {
     return exit_code::interrupted;
   }
   fmt::print("{}\n", study_table(plan, study.runs, study.findings));
+  if (study.findings.reference_is_one_of_many)
+    print_warning(fmt::format("errors are measured from {}", words_of_reference(plan, study.findings)));
   const auto best = cheapest_within(study.findings, study.runs, error);
   if (!best) {
     fmt::print("no run keeps {:.3g} %: vary more, or take finer values\n", 100 * error);

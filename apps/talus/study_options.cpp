@@ -9,6 +9,7 @@
 #include "output/output_folder.hpp"
 #include "progress.hpp"
 #include "scene_options.hpp"
+#include "study/rounding.hpp"
 #include "study/study_charts.hpp"
 #include "study/study_page.hpp"
 #include "terminal.hpp"
@@ -162,7 +163,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   progress.clear();
   study.interrupted = *order.interrupted;
   if (study.interrupted) return study;
-  study.findings = find_out(plan, study.runs, column, reference);
+  study.findings = find_out(plan, study.runs, column, reference, rounding_of(plain.scene, column));
   if (!study.findings.part.empty())
     print_warning(fmt::format("the reference goes {} and runs do not: errors are those of the time in common",
                               study.findings.part));

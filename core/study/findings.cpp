@@ -87,6 +87,9 @@ void find_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs, Study
     if (!is_resolution(plan.pointers[family.variation])) continue;
     const auto has = [&](std::size_t run) { return std::ranges::count(family.runs, run) != 0; };
     if (findings.reference && !has(*findings.reference)) continue;
+    // Where that did no more work than others of the family, nothing says which end of it is the finer.
+    const auto as_much = [&](std::size_t run) { return runs[run].work == runs[*findings.reference].work; };
+    if (findings.reference && std::ranges::count_if(family.runs, as_much) > 1) continue;
     ObservedOrder order{{family.variation, {}}, {}};
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
@@ -156,14 +159,14 @@ namespace {
 /// Whether one curve goes on for as long as another, as the error of all of that asks.
 bool covers(const Series& due, const Series& history) {
   if (due.time.empty() || history.time.empty()) return false;
-  const double little = 1e-6 * std::abs(history.time.back());  // curves are written with so many digits
+  const double little = time_tolerance(history.time);
   return due.time.front() <= history.time.front() + little && due.time.back() >= history.time.back() - little;
 }
 
 }  // namespace
 
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
-                       const std::optional<Series>& reference) {
+                       const std::optional<Series>& reference, double rounding) {
   StudyFindings findings;
   findings.column = column;
   findings.runs.resize(runs.size());
@@ -185,10 +188,11 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     throw InputError(
         fmt::format("the reference has no column '{}'; it has '{}'", column, fmt::join(due.names, "', '")));
   }
-  if (!(largest_magnitude(due, *due_column, due) > 0)) {
+  const double largest = largest_magnitude(due, *due_column, due);
+  if (!(largest > rounding)) {
     throw InputError(fmt::format(
-        "'{}' is 0 all along in the reference, so that no error is a share of it; choose another --metric",
-        column));
+        "'{}' is {} all along in the reference, so that no error is a share of it; choose another --metric",
+        column, largest == 0 ? "0" : fmt::format("rounding, {:.2g} at most,", largest)));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!finished(runs[i]) || findings.reference == i) continue;

@@ -49,9 +49,10 @@ struct StudyFindings {
 std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findings);
 
 /// Of `column`, from `reference` or else from the run that finished with the most work. Throws InputError
-/// where the runs or the reference have no such column, or no run finished.
+/// where the runs or the reference have no such column, or in no place more than `rounding` of it, or no run
+/// finished.
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
-                       const std::optional<Series>& reference);
+                       const std::optional<Series>& reference, double rounding = 0);
 
 /// The cheapest run with at most this error, that of the reference included, if there is one.
 std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,

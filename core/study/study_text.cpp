@@ -70,6 +70,7 @@ std::string study_json(const StudyPlan& plan, const std::vector<StudyRun>& runs,
   Json json{{"talus", TALUS_VERSION}, {"column", findings.column}};
   json["reference"] =
       findings.reference ? Json(runs[*findings.reference].folder.filename().string()) : Json("file");
+  json["reference_is_one_of_many"] = findings.reference_is_one_of_many;
   json["error"] = "RMS of the column over the largest magnitude of the reference";
   json["varied"] = plan.pointers;
   json["runs"] = Json::array();

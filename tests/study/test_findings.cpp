@@ -48,6 +48,17 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK_THAT(study_svg(sample_steps(), runs, findings), Contains("dt=2e-3"));
 }
 
+TEST_CASE("Errors against one of several runs of equal work have no order", "[study]") {
+  // As of stiffnesses at one fixed step: the first of them is no finer than the others.
+  const std::vector<StudyRun> runs = stepped({run_of(0, 1, 10), run_of(0.04, 1, 10), run_of(0.01, 1, 10),
+                                              run_of(0.16, 1, 10), run_of(0.0025, 1, 10)});
+  const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
+  CHECK(findings.reference == 0u);
+  CHECK(findings.reference_is_one_of_many);
+  CHECK(findings.orders.empty());
+  CHECK(nlohmann::json::parse(study_json(sample_steps(), runs, findings))["reference_is_one_of_many"] == true);
+}
+
 TEST_CASE("Orders allow for what the reference run misses, at either end of its family", "[study]") {
   for (const double order : {0.5, 1.0, 2.0, 3.0}) {
     const auto errors = [&](const std::vector<double>& sizes, double reference) {
@@ -172,6 +183,9 @@ TEST_CASE("A study can be measured against a curve, and says where it cannot", "
   for (double& value : reference.values[0]) value = 0;
   CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
                     Contains("is 0 all along in the reference"));
+  for (double& value : reference.values[0]) value = 1e-15;
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference, 1e-12),
+                    Contains("is rounding, 1e-15 at most, all along in the reference"));
   for (StudyRun& each : runs) each.end = "stopped";
   CHECK_THROWS_AS(find_out(sample_steps(), runs, sample_column, std::nullopt), NumericalTrouble);
   for (StudyRun& each : runs) each.end = "refused";
