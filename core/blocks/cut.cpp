@@ -124,9 +124,11 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
   std::vector<Block>& blocks = made.blocks;
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
-  made.bridged = bridge_pinches(blocks, geos);
+  const Bridged bridged = bridge_pinches(blocks, geos);
+  made.bridged = bridged.points;
   for (Block& block : blocks) orient(block);
-  made.names_of_one_line = name_edges(blocks, order.domain, cuts, 10 * reach_of_size * size, geos);
+  made.names_of_one_line =
+      name_edges(blocks, order.domain, cuts, bridged.chords, 10 * reach_of_size * size, geos);
   drop_idle_vertices(blocks, tolerance);
   for (const Block& block : blocks) {
     if (std::abs(area_of(block.loops) - block.area) > lost * size * size)

@@ -28,6 +28,11 @@ struct CutOrder {
   std::uint64_t split_seed = 0;
 };
 
+/// The straight edge that takes the place of a corner.
+struct Chord {
+  Vec2 corner, from, to;
+};
+
 /// Where a drawn line ends within a block-to-be.
 struct LooseEnd {
   Vec2 at;

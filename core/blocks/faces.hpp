@@ -32,9 +32,10 @@ void drop_idle_vertices(std::vector<Block>& blocks, double most);
 /// where no triangle is below `smallest` (m²).
 void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest);
 
-/// Which surface each edge belongs to: that of the first line which it lies on, within `tolerance` (m).
-/// Returns the names of those that lie on others.
+/// Which surface each edge belongs to: that of the first line which it lies on, within `tolerance` (m); where
+/// a corner was cut off, of the first line that the sides of the corner lie on. Returns the names of those
+/// that lie on others.
 NamesOfOneLine name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
-                          double tolerance, const Geos& geos);
+                          const std::vector<Chord>& chords, double tolerance, const Geos& geos);
 
 }  // namespace talus

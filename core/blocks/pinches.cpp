@@ -69,6 +69,8 @@ class CornerCut {
         start_(towards(before(ring, vertex), length)),
         end_(towards(after(ring, vertex), length)) {}
 
+  Chord chord() const { return {point_, start_, end_}; }
+
   void apply(Ring& ring) const {
     const std::size_t vertex = *vertex_at(ring, point_);
     const Vec2 from = crossing(before(ring, vertex)), to = crossing(after(ring, vertex));
@@ -95,6 +97,8 @@ class CornerCut {
 class Bridges {
  public:
   Bridges(std::vector<Block>& blocks, const Geos& geos) : blocks_(blocks), geos_(geos) {}
+
+  const std::vector<Chord>& chords() const { return chords_; }
 
   void bridge(std::size_t block, Vec2 point) {
     std::vector<Sector> sectors = sectors_at(block, point);
@@ -164,12 +168,14 @@ class Bridges {
     const Ring& ring = ring_of({block, sector.loop});
     const CornerCut line(ring, *vertex_at(ring, point), length);
     for (const Place& place : places) line.apply(ring_of(place));
+    chords_.push_back(line.chord());
   }
 
   Ring& ring_of(const Place& place) { return blocks_[place.block].loops[place.loop]; }
 
   std::vector<Block>& blocks_;
   const Geos& geos_;
+  std::vector<Chord> chords_;
 };
 
 /// Points that more than one loop of a block has.
@@ -187,7 +193,7 @@ std::vector<Vec2> pinches_of(const Block& block) {
 
 }  // namespace
 
-std::vector<Vec2> bridge_pinches(std::vector<Block>& blocks, const Geos& geos) {
+Bridged bridge_pinches(std::vector<Block>& blocks, const Geos& geos) {
   std::vector<double> outline;
   for (const Block& block : blocks) outline.push_back(std::abs(signed_area(block.loops[0])));
   std::vector<std::size_t> order(blocks.size());
@@ -204,7 +210,7 @@ std::vector<Vec2> bridge_pinches(std::vector<Block>& blocks, const Geos& geos) {
       if (told.emplace(point.x, point.y).second) points.push_back(point);
     }
   }
-  return points;
+  return {points, bridges.chords()};
 }
 
 }  // namespace talus

@@ -173,6 +173,17 @@ TEST_CASE("a block that meets itself at a point gets one simple boundary, and no
   CHECK(halves == 2);  // each half has lost its foot
 }
 
+TEST_CASE("where a corner is cut off the new edge is of the surface of its sides", "[blocks]") {
+  const auto bodies = made(
+      R"("joints": [{"points": [[0.2, 0.2], [0.8, 0.8], [0.8, 0.2], [0.2, 0.8], [0.2, 0.2]], "surface": "joint"}])");
+  REQUIRE(bodies.size() == 3);
+  for (const SceneBody& body : bodies) {
+    if (area_of(body) > 0.5) continue;  // the rock around, with the outer boundary
+    for (const std::uint32_t surface : body.outer.surface_class)
+      CHECK(surface == body.outer.surface_class[0]);
+  }
+}
+
 TEST_CASE("of corners that meet at a point the sharper one is cut off, however the drawing is turned",
           "[blocks]") {
   // About the middle of the square a tip that points at it from the left and, from the right: a notch around
