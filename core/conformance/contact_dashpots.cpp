@@ -94,7 +94,7 @@ void expect_dashpots_booked(const Subject& subject, Trial& trial) {
       expect_force_told(e, undamped.step(dt), trial);
     }
   }
-  const double rounded = 1e-15 * scale_of(subject);
+  const double rounded = 1e-15 * scale_of(subject, trial);
   for (const Setup& setup : setups()) {
     for (const Swing& swing : swings) {
       for (const double share : {0.0, 0.5, 1.0})

@@ -86,7 +86,7 @@ void check_cycles(const Subject& subject, Trial& trial) {
       {"unloaded in part, sheared, loaded, sheared back", 89, {{0, 5e-4}, {1e-4, 5e-4}, {1e-4, 0}, {0, 0}}},
       {"slid to and fro", 25, {{2e-3, 0}, {-2e-3, 0}, {0, 0}}},
       {"slid round a square", 25, {{2e-3, 0}, {2e-3, 5e-4}, {-2e-3, 5e-4}, {-2e-3, 0}, {0, 0}}}};
-  const double rounded = 1e-15 * scale_of(subject);
+  const double rounded = 1e-15 * scale_of(subject, trial);
   for (const Setup& setup : setups()) {
     for (const Cycle& cycle : cycles) {
       for (const double share : {0.0, 0.5, 1.0}) {

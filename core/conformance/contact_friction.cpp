@@ -80,7 +80,7 @@ void check_friction_limit(const Subject& subject, Trial& trial) {
     trial.not_claimed("no interface parameter friction_angle or friction_coefficient");
     return;
   }
-  const double rounded = 1e-15 * scale_of(subject);
+  const double rounded = 1e-15 * scale_of(subject, trial);
   for (const double angle : {0.0, 5.0, 25.0, 45.0}) {
     const double mu = std::tan(angle * std::numbers::pi / 180);
     const Values interface = with(

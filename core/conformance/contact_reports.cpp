@@ -56,7 +56,7 @@ void check_reports(const Subject& subject, Trial& trial) {
       }
     }
   }
-  const double rounded = 1e-15 * scale_of(subject);
+  const double rounded = 1e-15 * scale_of(subject, trial);
   for (const HeldPair& pair : pairs_without_ties(36)) {
     for (const double share : {0.0, 0.5, 1.0}) {
       trial.feed(fed_pair(pair, share) + ", moving, the second step");

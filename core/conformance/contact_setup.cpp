@@ -27,7 +27,8 @@ Values undamped_with_friction(double angle) {
                                      {"friction_coefficient", std::tan(angle * std::numbers::pi / 180)}});
 }
 
-double scale_of(const Subject& subject) {
+double scale_of(const Subject& subject, Trial& trial) {
+  trial.feed("a block 1 mm deep in a base");
   DrivenLaw law(*subject.component, undamped_interface());
   law.bodies = flat_on_flat();
   return std::abs(law.look().on(1).y) / 1e-3;

@@ -27,7 +27,7 @@ Values undamped_with_friction(double angle);
 
 /// Force per depth of the flat contact, N/m per metre of thickness: the measure of all round-off. A
 /// coordinate that is rounded by 1e-15 m is worth 1e-15 of it in force.
-double scale_of(const Subject& subject);
+double scale_of(const Subject& subject, Trial& trial);
 
 /// Pairs that can be turned and mirrored: no exact ties.
 std::vector<HeldPair> pairs_without_ties(std::uint32_t random);

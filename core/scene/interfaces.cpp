@@ -147,6 +147,27 @@ void read_without_law(const Registry& registry, Section& section) {
   }
 }
 
+/// Keys that another installed law reads: they may stand here where the scene names that law.
+void tell_of_other_laws(const Registry& registry, Section& section) {
+  for (const std::string& key : section.keys()) {
+    if (section.knows(key)) continue;
+    for (const RegisteredComponent& entry : registry.components()) {
+      const Component& law = *entry.component;
+      const std::span parameters(law.interface_parameters, law.interface_parameter_count);
+      if (law.kind != ComponentKind::contact_model ||
+          std::ranges::none_of(parameters, [&](const Parameter& each) { return key == each.key; }))
+        continue;
+      section.mistakes().add_at_key(
+          section.pointer_to(key),
+          fmt::format("the chosen law does not read this; '{0}' does: where the scene is to run with either, "
+                      "name that in /contact, too: \"{0}\": {{}}",
+                      law.name));
+      section.child(key);
+      break;
+    }
+  }
+}
+
 std::vector<double> read_values(const Reading& reading, Section& section, const ContactSection& contact,
                                 std::set<std::string>& unread) {
   std::vector<double> values;
@@ -154,6 +175,7 @@ std::vector<double> read_values(const Reading& reading, Section& section, const 
     const Component& law = *contact.law.component->component;
     values = section.values(std::span(law.interface_parameters, law.interface_parameter_count));
     read_rest(section, contact, unread);
+    tell_of_other_laws(reading.registry, section);
   } else {
     read_without_law(reading.registry, section);
   }

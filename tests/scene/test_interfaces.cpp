@@ -121,7 +121,10 @@ TEST_CASE("a row may hold keys of a law that the scene can be varied over", "[sc
   const std::string text =
       sample::good_but("\"normal_damping\": 0.3", "\"normal_damping\": 0.3, \"dilation\": 1");
   CHECK(sample::mistakes(text, {{{"/contact/model", "smooth"}}, false}).empty());
-  CHECK(sample::mistakes(text, {{{"/contact", "{\"model\": \"smooth\"}"}}, false}).size() == 1);
+  const std::vector<Mistake> mistakes =
+      sample::mistakes(text, {{{"/contact", "{\"model\": \"smooth\"}"}}, false});
+  REQUIRE(mistakes.size() == 1);
+  CHECK_THAT(mistakes[0].message, Catch::Contains("'shear' does") && Catch::Contains("\"shear\": {}"));
 }
 
 TEST_CASE("fixed bodies alone need no contact", "[scene]") {
