@@ -129,6 +129,16 @@ TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") 
   CHECK_THAT(comparison.warnings[1], Contains("--reference"));
 }
 
+TEST_CASE("what is told between rows is warned of", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  order.moments = {1};
+  Comparison comparison = example_comparison();
+  comparison.runs[1].result.history = {{0, 0.7, 1.7}, {"block.speed [m/s]"}, {{0, 1, 3}}};
+  evaluate(order, comparison);
+  REQUIRE(comparison.warnings.size() == 1);
+  CHECK_THAT(comparison.warnings[0], Contains("'vertex_edge' has rows at other times than 'overlap_area'"));
+}
+
 TEST_CASE("an order that compares nothing is refused", "[compare][report]") {
   ComparisonOrder order = example_order();
   CHECK_NOTHROW(check_order(order));

@@ -100,6 +100,7 @@ TEST_CASE("a law that favours, depends or pulls fails in the one check that is m
                       {"depends_on_place", "translation"},
                       {"drags", "galilean"},
                       {"exceeds_friction", "friction"},
+                      {"forgets_at_joints", "joint"},
                       {"favours_a_hand", "reflection"},
                       {"favours_an_axis", "rotation"},
                       {"ignores_friction", "friction"},
