@@ -225,7 +225,9 @@ class CornerFinder {
     const std::uint32_t met = 1 - contact.vertex_body;
     const Piece& side_of = pieces[contact.entry].piece[met];
     const double past_end = side_of.length(contact.side) * std::max(-contact.lever, contact.lever - 1);
-    if (contact.depth <= 0 || (past_end > 0 && past_end <= contact.slack)) return false;  // flush with it
+    // At the corner itself rounding alone tells the two apart, and bonds form to both.
+    if (contact.depth <= 1e-12 * side_of.length(contact.side)) return false;
+    if (past_end > 0 && past_end <= contact.slack) return false;  // flush with it
     return std::ranges::any_of(pieces, [&](const PiecePairGeometry& pair) {
       const Piece& piece = pair.piece[met];
       if (piece.first_corner() == side_of.first_corner() || piece.is_strip()) return false;

@@ -156,7 +156,10 @@ class VertexEdge final : public ContactModel {
     drop_repeated(all, work.found);
     fade_further_faces(all, work.found);
     std::erase_if(work.found, [&](const CornerContact& contact) {
-      return contact.bearing < contact.depth && !(contact.bearing > 0) && !is_bonded(contact, work);
+      // At the corner itself, where depths are rounding, bonds form to both faces.
+      const bool touches = contact.depth <= 1e-9 * contact.tributary;
+      return contact.bearing < contact.depth && !(contact.bearing > 0) && !touches &&
+             !is_bonded(contact, work);
     });
   }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace talus;
 using namespace talus::bench;
@@ -208,5 +209,32 @@ TEST_CASE("The step in which a bond breaks is booked as a whole", "[vertex_edge]
     const EnergyLedger& ledger = simulation.ledger();
     CHECK(ledger.friction_loss > 0.3);
     CHECK(residual_share(ledger) < 2e-3);
+  }
+}
+
+TEST_CASE(
+    "A corner that fills a blunt reflex corner is bonded to both of its faces, however the drawing is turned",
+    "[vertex_edge]") {
+  // Faces of 1 m along the base, sloping to the middle, from which the body above is lifted off.
+  constexpr double degree = std::numbers::pi / 180;
+  for (const double incline : {1.0, 10.0, 40.0}) {
+    const double slope = std::tan(incline * degree);
+    for (int turn = 0; turn < 360; turn += 7) {
+      INFO(turn << " degrees, faces of " << incline);
+      const double c = std::cos(turn * degree), s = std::sin(turn * degree);
+      const auto turned = [&](std::vector<Vec2> points) {
+        for (Vec2& p : points) p = {0.3 + c * p.x - s * p.y, 0.7 + s * p.x + c * p.y};
+        return held(points);
+      };
+      LawBench bench("vertex_edge", bonded());
+      bench.bodies = {turned({{-2, -1}, {2, -1}, {2, 2 * slope}, {0, 0}, {-2, 2 * slope}}),
+                      turned({{0, 0}, {1, slope}, {1, 1}, {-1, 1}, {-1, slope}})};
+      bench.bonds_form = true;
+      bench.step();
+      bench.bonds_form = false;
+      const Vec2 force = shifted(bench, {-s * 5e-5, c * 5e-5}).on(1);
+      const double due = 2 * 5e-5 * std::cos(incline * degree) * (1e9 + 7e8 * slope * slope);
+      CHECK(-s * force.x + c * force.y == Approx(-due).epsilon(1e-6));
+    }
   }
 }
