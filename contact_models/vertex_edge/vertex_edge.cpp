@@ -155,15 +155,20 @@ class VertexEdge final : public ContactModel {
     }
     drop_repeated(all, work.found);
     fade_further_faces(all, work.found);
-    std::erase_if(work.found, [&](const CornerContact& contact) {
-      // At the corner itself, where depths are rounding, bonds form to both faces.
-      const bool touches = contact.depth <= 1e-9 * contact.tributary;
-      return contact.bearing < contact.depth && !(contact.bearing > 0) && !touches &&
-             !is_bonded(contact, work);
+    for (CornerContact& contact : work.found) {
+      if (contact.bearing < contact.depth && is_bonded(batch, contact, work)) contact.bearing = contact.depth;
+    }
+    std::erase_if(work.found, [](const CornerContact& contact) {
+      // At the corner itself depths are rounding, and bonds form to both faces.
+      return contact.depth > 1e-9 * contact.tributary && !(contact.bearing > 0);
     });
   }
 
-  static bool is_bonded(const CornerContact& contact, const Workspace& work) {
+  static bool is_bonded(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
+    const Piece &own = work.pieces[contact.entry].piece[contact.vertex_body],
+                &other = work.pieces[contact.entry].piece[1 - contact.vertex_body];
+    const Interface interface = interface_of(batch.interfaces, own, other, contact);
+    if (!(interface.cohesion > 0 || interface.tensile > 0)) return false;
     const double side = side_of(contact, work);
     return std::ranges::any_of(work.old, [&](const SpringHistory& old) {
       return old.key == 1.0 + contact.key && old.side == side && old.intact == 1;
