@@ -17,7 +17,6 @@ struct CornerContact {
   std::uint32_t key;          ///< the vertex, known again at the next step
   std::uint32_t side;         ///< of the other body's piece
   double depth;               ///< m, behind the side; negative across an intact bond
-  double bearing;             ///< m, of the depth what the side pushes back with
   double lever;               ///< foot of the vertex along the side, 0 to 1 on it
   double tributary;           ///< m, length of boundary whose load the vertex carries
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
@@ -75,7 +74,7 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, true}, found);
+              {entry, body, v, key, 0, 0, 0, 0, 0, 1, false, true}, found);
       }
     }
     leave_to_ends(geometry, found, first);
@@ -153,7 +152,6 @@ class CornerFinder {
     const std::array<Bound, 2> tips = tips_at_cuts(pieces, other, contact, at);
     if (tips[0].past > contact.slack || tips[1].past > contact.slack) return;
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
-    contact.bearing = contact.depth;
     contact.lever = other.lever(contact.side, at);
     if (at_cut && !contact.past_cut && is_before_another(pieces, at, outward, contact)) return;
     contact.tributary = tributary_length(pieces, contact);

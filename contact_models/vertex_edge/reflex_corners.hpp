@@ -75,24 +75,4 @@ inline void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector
   std::erase_if(found, [](const CornerContact& contact) { return !contact.stands; });
 }
 
-/// Behind both faces of a reflex corner a vertex is pushed by both. Where they turn by less than a right
-/// angle it is behind the further one long before the corner, where that has nothing to bear yet: it fades in
-/// while the way to the corner falls from 3 to 1.5 times how deep the vertex is behind the nearer one.
-inline void fade_further_faces(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
-  const auto fade = [](CornerContact& further, double way, double depth) {
-    further.bearing =
-        std::min(further.bearing, further.depth * std::clamp(2 - way / (1.5 * depth), 0.0, 1.0));
-  };
-  for (CornerContact& p : found) {
-    for (CornerContact& q : found) {
-      if (p.key != q.key || !(p.depth > 0 && q.depth > 0) || !leads(pieces, p, q)) continue;
-      const Piece &from = pieces[p.entry].piece[1 - p.vertex_body],
-                  &to = pieces[q.entry].piece[1 - q.vertex_body];
-      if (!(dot(from.tangent(p.side), to.tangent(q.side)) > 0)) continue;
-      fade(p, (p.lever - 1) * from.length(p.side), q.depth);
-      fade(q, -q.lever * to.length(q.side), p.depth);
-    }
-  }
-}
-
 }  // namespace talus::vertex_edge

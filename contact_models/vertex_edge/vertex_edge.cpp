@@ -154,25 +154,6 @@ class VertexEdge final : public ContactModel {
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
     drop_repeated(all, work.found);
-    fade_further_faces(all, work.found);
-    for (CornerContact& contact : work.found) {
-      if (contact.bearing < contact.depth && is_bonded(batch, contact, work)) contact.bearing = contact.depth;
-    }
-    std::erase_if(work.found, [](const CornerContact& contact) {
-      // At the corner itself depths are rounding, and bonds form to both faces.
-      return contact.depth > 1e-9 * contact.tributary && !(contact.bearing > 0);
-    });
-  }
-
-  static bool is_bonded(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
-    const Piece &own = work.pieces[contact.entry].piece[contact.vertex_body],
-                &other = work.pieces[contact.entry].piece[1 - contact.vertex_body];
-    const Interface interface = interface_of(batch.interfaces, own, other, contact);
-    if (!(interface.cohesion > 0 || interface.tensile > 0)) return false;
-    const double side = side_of(contact, work);
-    return std::ranges::any_of(work.old, [&](const SpringHistory& old) {
-      return old.key == 1.0 + contact.key && old.side == side && old.intact == 1;
-    });
   }
 
   static double side_of(const CornerContact& contact, const Workspace& work) {
@@ -278,19 +259,18 @@ class VertexEdge final : public ContactModel {
 
     // A flat contact stands on two such springs, and its ratio is meant of the two together.
     const double carried_mass = pair.reduced_mass / 2;
-    const double bears = contact.depth > 0 ? contact.bearing / contact.depth : 1;
-    const double dashpot = bears * 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
+    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
     // No dashpot pulls, but what a bond would bear as well.
     const bool held = batch.hold_stick && spring.tensile > 0;
     const double viscous =
         held ? dashpot * closing
-             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.bearing + spring.tensile));
+             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth + spring.tensile));
 
     const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
     // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
     const double old_viscous = std::exchange(history.viscous, 0);
     const SpringForce force =
-        spring_force(spring, contact.bearing, viscous, history.elastic, slip, batch.hold_stick);
+        spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
     if (force.breaks) history.intact = 0;
     if (force.normal <= 0 && history.intact == 0) {
       // The force of the step before has worked through half of this one.
@@ -302,7 +282,7 @@ class VertexEdge final : public ContactModel {
 
     history.elastic = force.tangential;
     history.applied = contact.share * force.tangential;
-    const double stored_normal = contact.share * spring.normal * contact.bearing * contact.depth / 2;
+    const double stored_normal = contact.share * spring.normal * contact.depth * contact.depth / 2;
     const double stored_tangential =
         spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
                               : 0;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -112,57 +111,6 @@ TEST_CASE("a vertex bears as in the mirror, whatever else its neighbour only see
   };
   CHECK(force(false) > 1e4);
   CHECK(force(true) == Approx(force(false)).epsilon(1e-9));
-}
-
-TEST_CASE("the further face of a reflex corner comes in near the corner, without a jump",
-          "[laws][vertex_edge]") {
-  // A tip is driven along the one face into the other, ever deeper; the cut of the notch may lean over
-  // either.
-  for (const double turn : {0.3, 10.0, 60.0}) {
-    for (const double lean : {-2.0, 2.0}) {
-      INFO("turned by " << turn << " degrees, leaning " << lean);
-      const double slope = std::tan(turn / 2 * std::numbers::pi / 180), across = 1 / std::hypot(1, slope);
-      const Vec2 start{-0.5, 0.5 * slope}, speed{1, -slope - 0.01};
-      WorkingScene text;
-      text.law =
-          R"(vertex_edge", "vertex_edge": {"calibration": "springs", "normal_spring": 1e8}, "roles": "symmetric)";
-      text.interface = R"("normal_stiffness": 0, "tangential_stiffness": 0, "friction_angle": 0,
-                          "normal_damping": 0, "tangential_damping": 0)";
-      text.bodies = fmt::format(
-          R"({{"name": "notch", "material": "rock", "fixed": true,
-               "polygon": [[{}, -3], [4, -2], [4, {}], [0, 0], [-4, {}], [-4, -2]]}},
-             {{"name": "tip", "material": "rock", "polygon": [[{}, {}], [-0.2, 8], [-0.8, 8]],
-               "drive": {{"x": {}, "y": {}, "rotation": 0}}}})",
-          lean, 4 * slope, 4 * slope, start.x, start.y, speed.x, speed.y);
-      text.rest = R"("limits": {"penetration": 1, "energy_residual": 1e9},)";
-      text.time = R"({"end": 0.55, "dt": 1e-4})";
-      text.output = R"({"history": 1e-4})";
-      const auto run = [&](bool skin) {
-        Simulation simulation(text.read(), {.neighbour_skin = skin});
-        double last = 0, jump = 0, largest = 0;
-        do {
-          const Vec2 moved = simulation.body_motion(1).displacement;
-          const Vec2 at{start.x + moved.x, start.y + moved.y};
-          const double left = std::max(0.0, (-slope * at.x - at.y) * across),
-                       right = std::max(0.0, (slope * at.x - at.y) * across);
-          const Vec2 force = contact_sum(simulation.contacts(), 1, {}).force;
-          const double size = std::hypot(force.x, force.y);
-          const double near = at.x < 0 ? left : right;
-          if (std::abs(at.x) > 3.5 * near) CHECK(size == Approx(1e8 * near).epsilon(1e-6).margin(1));
-          if (std::abs(at.x) < near) {
-            CHECK(force.x == Approx(1e8 * slope * across * (left - right)).epsilon(1e-6).margin(1));
-            CHECK(force.y == Approx(1e8 * across * (left + right)).epsilon(1e-6).margin(1));
-          }
-          jump = std::max(jump, std::abs(size - last));
-          largest = std::max(largest, size);
-          last = size;
-        } while (simulation.advance());
-        CHECK(jump < 0.02 * largest);
-        return simulation.state_hash();
-      };
-      CHECK(run(true) == run(false));
-    }
-  }
 }
 
 TEST_CASE("a tip in which a cut ends pushes as one without, and nothing that passes it",
