@@ -237,25 +237,33 @@ bool Comparison::tolerances_held() const {
 
 namespace {
 
-/// Of what is told of a run without being in its rows.
-void warn_of_other_times(const ComparisonOrder& order, Comparison& comparison) {
-  const std::vector<double>& times = comparison.runs[0].result.history.time;
-  for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
-    const auto of_run = [&](const ColumnDeviation& each) {
-      return each.run == run && each.deviation.between_rows;
-    };
-    if (std::ranges::any_of(comparison.deviations, of_run)) {
+/// Of what is told of a run without being in its rows, or by few of them.
+void warn_of_rows(const ComparisonOrder& order, Comparison& comparison) {
+  const std::vector<double>& base = comparison.runs[0].result.history.time;
+  for (std::size_t run = 1; run < comparison.runs.size(); ++run) {
+    const std::vector<double>& own = comparison.runs[run].result.history.time;
+    const auto entry = std::ranges::find_if(comparison.deviations, [&](const ColumnDeviation& each) {
+      return each.run == run && !each.from_reference;
+    });
+    if (entry == comparison.deviations.end()) continue;
+    const std::string words = fmt::format("'{}' has rows at other times than '{}'",
+                                          comparison.runs[run].value, comparison.runs[0].value);
+    if (entry->deviation.between_rows) {
       comparison.warnings.push_back(
-          fmt::format("'{}' has rows at other times than '{}': between them one of the two was taken for a "
-                      "line; give both the same /output/history",
-                      comparison.runs[run].value, comparison.runs[0].value));
+          words + ": between them one of the two was taken for a line; give both the same /output/history");
+    } else if (2 * entry->deviation.times < std::min(own.size(), base.size())) {
+      comparison.warnings.push_back(
+          fmt::format("{}: they are compared at the {} that both have", words, entry->deviation.times));
     }
-  }
-  for (const double moment : order.moments) {
-    if (row_at(times, moment) || times.empty() || !(moment < times.back())) continue;
-    comparison.warnings.push_back(fmt::format(
-        "--at {}: there is no row of that time, so what is told is on the line between the rows beside it",
-        moment));
+    for (const double moment : order.moments) {
+      if ((row_at(own, moment) && row_at(base, moment)) || !(moment < std::min(own.back(), base.back())))
+        continue;
+      comparison.warnings.push_back(
+          fmt::format("--at {}: '{}' and '{}' do not both have a row of that time, so what is told is on the "
+                      "line between "
+                      "rows beside it",
+                      moment, comparison.runs[0].value, comparison.runs[run].value));
+    }
   }
 }
 
@@ -272,17 +280,20 @@ void evaluate(const ComparisonOrder& order, Comparison& comparison) {
                                                 comparison.runs[run].value, order.reference->file));
   }
   if (order.reference) warn_of_other_units(order, comparison);
-  warn_of_other_times(order, comparison);
+  warn_of_rows(order, comparison);
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
     const double end = order.scenes[0].time.end;
     const auto ends_early = [&](const Series& series) {
       return series.time.empty() || !(series.time.back() >= end - time_tolerance(series.time));
     };
+    const auto covers_part = [&](const Series& series) {
+      return ends_early(series) || series.time.front() > time_tolerance(series.time);
+    };
     const auto unfinished = [&](const ComparedRun& each) {
       return each.result.end != RunEnd::finished || ends_early(each.result.history);
     };
     return unfinished(comparison.runs[run]) ||
-           (tolerance.against_reference ? ends_early(order.reference->series)
+           (tolerance.against_reference ? covers_part(order.reference->series)
                                         : unfinished(comparison.runs[0]));
   };
   for (const Tolerance& tolerance : order.scenes[0].tolerances) {

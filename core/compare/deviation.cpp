@@ -9,14 +9,6 @@ namespace talus {
 
 namespace {
 
-/// The moment at which a run was stopped, where it has a row of that moment alone.
-std::optional<double> stopped_at(const std::vector<double>& times) {
-  if (times.size() < 3) return std::nullopt;
-  const double last = times.back() - times[times.size() - 2],
-               before = times[times.size() - 2] - times[times.size() - 3];
-  return last < (1 - 1e-6) * before ? std::optional(times.back()) : std::nullopt;
-}
-
 /// How many of some times lie within others.
 std::size_t count_within(const std::vector<double>& times, const std::vector<double>& others) {
   if (times.empty() || others.empty()) return 0;
@@ -53,8 +45,9 @@ Difference at_common_rows(const Curve& one, const Curve& other) {
   }
   // What stopped a run shows best in its last row.
   for (const Curve* each : {&one, &other}) {
-    const auto stop = stopped_at(each->time());
-    if (stop && !found.time.empty() && *stop > found.time.back()) add_at(*stop, one, other, found);
+    if (!each->series.stopped || found.time.empty()) continue;
+    const double stop = each->time().back();
+    if (!row_at(found.time, stop) && stop > found.time.back()) add_at(stop, one, other, found);
   }
   return found;
 }

@@ -148,9 +148,10 @@ void read_without_law(const Registry& registry, Section& section) {
 }
 
 /// Keys that another installed law reads: they may stand here where the scene names that law.
-void tell_of_other_laws(const Registry& registry, Section& section) {
+void tell_of_other_laws(Registry& registry, Section& section) {
   for (const std::string& key : section.keys()) {
     if (section.knows(key)) continue;
+    load_offered(registry);
     for (const RegisteredComponent& entry : registry.components()) {
       const Component& law = *entry.component;
       const std::span parameters(law.interface_parameters, law.interface_parameter_count);

@@ -101,7 +101,9 @@ TEST_CASE("a curve written with six digits goes on for as long as the run that i
 
 TEST_CASE("the moment at which a run was stopped is compared, too", "[compare][deviation]") {
   const Series baseline{{0, 1, 2, 3}, {"block.speed [m/s]"}, {{0, 0, 0, 0}}};
-  const Series stopped{{0, 1, 1.5}, {"block.speed [m/s]"}, {{0, 0, 7}}};
+  Series stopped{{0, 1, 1.5}, {"block.speed [m/s]"}, {{0, 0, 7}}};
+  CHECK(deviation(stopped, 0, baseline, 0, Between::unknown)->final_time == 1);  // as a run of 1.5 s
+  stopped.stopped = true;
   const auto found = deviation(stopped, 0, baseline, 0, Between::unknown);
   REQUIRE(found);
   CHECK(found->largest == 7);

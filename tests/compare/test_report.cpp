@@ -125,7 +125,8 @@ TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") 
   Comparison comparison = example_comparison();
   evaluate(order, comparison);
   REQUIRE(comparison.warnings.size() == 2);
-  CHECK_THAT(comparison.warnings[0], Contains("--at 0.5: there is no row of that time"));
+  CHECK_THAT(comparison.warnings[0],
+             Contains("--at 0.5: 'overlap_area' and 'vertex_edge' do not both have a row"));
   CHECK_THAT(comparison.warnings[1], Contains("--reference"));
 }
 
@@ -135,8 +136,9 @@ TEST_CASE("what is told between rows is warned of", "[compare][report]") {
   Comparison comparison = example_comparison();
   comparison.runs[1].result.history = {{0, 0.7, 1.7}, {"block.speed [m/s]"}, {{0, 1, 3}}};
   evaluate(order, comparison);
-  REQUIRE(comparison.warnings.size() == 1);
+  REQUIRE(comparison.warnings.size() == 2);
   CHECK_THAT(comparison.warnings[0], Contains("'vertex_edge' has rows at other times than 'overlap_area'"));
+  CHECK_THAT(comparison.warnings[1], Contains("--at 1: "));
 }
 
 TEST_CASE("an order that compares nothing is refused", "[compare][report]") {
