@@ -152,9 +152,10 @@ void say_result(const Scene& scene, const Safety& safety) {
     return;
   }
   warn_of_run(scene, safety);
+  const std::string_view what = safety.of_what_is_left ? "what was left after settling" : "it";
   if (const auto factor = safety.factor()) {
-    fmt::print("factor of safety {:.4g}: stands at {:.4g}, collapses at {:.4g}\n", *factor, *safety.stands,
-               *safety.falls);
+    fmt::print("factor of safety {:.4g}: {}stands at {:.4g}, collapses at {:.4g}\n", *factor,
+               safety.of_what_is_left ? fmt::format("{} ", what) : "", *safety.stands, *safety.falls);
     const ReducedRun& fallen = run_at(safety, *safety.falls);
     const std::vector<std::string> names = names_of(scene, fallen.moving);
     if (was_stopped(fallen))
@@ -168,10 +169,10 @@ void say_result(const Scene& scene, const Safety& safety) {
                       "of the size of its elements where it has many, and no collapse that goes on",
                       fallen.factor, fallen.displacement));
   } else if (safety.falls) {
-    fmt::print("it collapses even with {:.3g} times its strength: look whether it can stand at all\n",
+    fmt::print("{} collapses even with {:.3g} times its strength: look whether it can stand at all\n", what,
                1 / *safety.falls);
   } else if (safety.stands) {
-    fmt::print("it stands even with its strength divided by {:.3g}\n", *safety.stands);
+    fmt::print("{} stands even with its strength divided by {:.3g}\n", what, *safety.stands);
   }
 }
 

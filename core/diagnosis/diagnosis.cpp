@@ -4,6 +4,8 @@
 #include "simulation/time_step.hpp"
 #include "text/place.hpp"
 
+#include <talus/library.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -113,6 +115,12 @@ std::vector<std::string> advice_for(const Scene& scene, const Diagnosis& diagnos
     advice.push_back(
         "damp the contacts (normal_damping, tangential_damping of the interface) if they bounce where they "
         "should rest");
+  const Component* law = scene.contact.component == nullptr ? nullptr : scene.contact.component->component;
+  if (unbalanced && law != nullptr && (law->traits & trait::has_potential) == 0)
+    advice.push_back(fmt::format(
+        "where that changes nothing, '{}', which has no potential, makes or loses the energy; see "
+        "whether overlap_area, which has one, does",
+        law->name));
   return advice;
 }
 

@@ -83,6 +83,7 @@ class Reduction {
   }
 
   bool settled() const { return settled_; }
+  bool of_what_is_left() const { return of_what_is_left_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Nothing if it was interrupted.
@@ -112,6 +113,7 @@ class Reduction {
   /// What fell before there was a geometry to fall from stands all the better where it lies.
   void warn_of_gone(const std::vector<std::size_t>& bodies) {
     if (bodies.empty()) return;
+    of_what_is_left_ = true;
     std::vector<std::string> names;
     for (const std::size_t body : bodies) names.push_back(scene_.bodies[body].name);
     warnings_.push_back(fmt::format(
@@ -161,7 +163,7 @@ class Reduction {
     std::vector<std::optional<Vec2>> face(scene_.bodies.size());
     for (const Contact& contact : whole.contacts()) {
       const double size = size_of(contact.normal_force);
-      if (size == 0) continue;
+      if (size == 0 || !(contact.penetration > 0)) continue;  // a bond that pulls points the other way
       const Vec2 normal{contact.normal_force.x / size, contact.normal_force.y / size};
       for (const auto& [body, sign] : {std::pair{contact.body_a, -1.0}, {contact.body_b, 1.0}}) {
         if (scene_.bodies[body].fixed) continue;
@@ -300,7 +302,7 @@ class Reduction {
   Geometry geometry_;
   std::vector<MovedPart> stood_;
   std::optional<Pieces> pieces_;
-  bool settled_ = false;
+  bool settled_ = false, of_what_is_left_ = false;
   std::vector<std::string> warnings_;
 };
 
@@ -339,6 +341,7 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
   const Reduction reduction(scene, settings);
   safety.interrupted = !reduction.settled();
   safety.warnings = reduction.warnings();
+  safety.of_what_is_left = reduction.of_what_is_left();
   double next = 1;
   while (!safety.interrupted) {
     const std::optional<ReducedRun> run = reduction.run(next);

@@ -50,6 +50,7 @@ struct Safety {
   std::optional<double> stands, falls;  ///< the largest factor that stood, the least that fell
   std::vector<ReducedRun> runs;         ///< in the order in which they were made
   bool interrupted = false;
+  bool of_what_is_left = false;       ///< some of the scene went while it settled with its full strength
   std::vector<std::string> warnings;  ///< of the run that settled with full strength
 
   std::optional<double> factor() const;  ///< of safety, between the two

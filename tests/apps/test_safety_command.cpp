@@ -71,6 +71,11 @@ TEST_CASE("talus safety says what collapses however strong, and what stands howe
   const Call fallen = reduce(scratch, {"--set", "/interfaces/0/friction_angle=0.1"});
   CHECK(fallen.code == 0);
   CHECK_THAT(fallen.out, Contains("it collapses even with ") && Contains("look whether it can stand at all"));
+  const Call slid = reduce(scratch, {"--overwrite", "--set", "/interfaces/0/friction_angle=20", "--set",
+                                     R"(/settle={"duration": 2, "damping": 5, "hold_stick": false})"});
+  INFO(slid.out << slid.err);
+  CHECK(slid.code == 0);
+  CHECK_THAT(slid.out, Contains("what was left after settling ") && !Contains("it collapses"));
   const Call steady = reduce(scratch, {"--overwrite", "--set", "/gravity=[0, 0]"});
   CHECK(steady.code == 0);
   CHECK_THAT(steady.out, Contains("it stands even with its strength divided by "));

@@ -21,7 +21,10 @@ WorkingScene falling(const std::string& time) {
 }  // namespace
 
 TEST_CASE("A step above the stable one is found out, with the step that shows it first", "[diagnosis]") {
-  Simulation simulation(falling(R"({"end": 1, "dt": 2e-3})").read(), {});
+  const std::string law = GENERATE("overlap_area", "vertex_edge");
+  WorkingScene text = falling(R"({"end": 1, "dt": 2e-3})");
+  text.law = law;
+  Simulation simulation(text.read(), {});
   simulation.advance();
   const Diagnosis diagnosis = diagnose(simulation, 1000);
   INFO(diagnosis_text(simulation.scene(), diagnosis));
@@ -33,6 +36,9 @@ TEST_CASE("A step above the stable one is found out, with the step that shows it
   CHECK_FALSE(diagnosis.trouble.empty());
   REQUIRE_FALSE(diagnosis.advice.empty());
   CHECK_THAT(diagnosis.advice[0], Contains("times the stable step") && Contains("less than"));
+  const bool told =
+      diagnosis.advice.back().find("'vertex_edge', which has no potential") != std::string::npos;
+  CHECK(told == (law == "vertex_edge"));
   CHECK_THAT(diagnosis_text(simulation.scene(), diagnosis), Contains("worst contact 'base' and 'block'"));
 }
 

@@ -188,6 +188,15 @@ TEST_CASE("What makes a factor doubtful is told", "[safety]") {
              Catch::Contains("'a' stands on several faces") && Catch::Contains("/settle/hold_stick"));
   CHECK(in_corner(soft, false).empty());
   CHECK(in_corner("", true).empty());
+
+  // A bond that pulls is no second face.
+  Scene hung = from_text(fmt::format(
+      fmt::runtime(rock_scene), "cohesive_overlap", 30,
+      R"(, "cohesion": 1e5, "tensile_strength": 1e6, "softening_slip": 1e-2)",
+      R"({"name": "wall", "polygon": [[-4, 4], [-4, -1], [-1, -1], [-1, 4]], "material": "rock", "fixed": true},
+         {"name": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "material": "rock"})"));
+  for (const std::string& warning : factor_of_safety(hung, {.highest = 1.1}).warnings)
+    CHECK_THAT(warning, !Catch::Contains("several faces"));
 }
 
 TEST_CASE("A bonded scene that slides while it settles has its factor below 1", "[safety]") {
