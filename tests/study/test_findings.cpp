@@ -56,7 +56,8 @@ TEST_CASE("Errors against one of several runs of equal work have no order", "[st
   CHECK(findings.reference == 0u);
   CHECK(findings.reference_is_one_of_many);
   CHECK(findings.orders.empty());
-  CHECK(nlohmann::json::parse(study_json(sample_steps(), runs, findings))["reference_is_one_of_many"] == true);
+  CHECK(nlohmann::json::parse(study_json(sample_steps(), runs, findings))["reference_is_one_of_many"] ==
+        true);
 }
 
 TEST_CASE("Orders allow for what the reference run misses, at either end of its family", "[study]") {
