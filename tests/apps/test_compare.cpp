@@ -65,6 +65,15 @@ TEST_CASE("equal scenes compare equal: the baseline settles as the others do", "
   CHECK(json_of(scratch / "out/small-compare/compare.json")["runs"][1]["settled_difference [m]"] == 0);
 }
 
+TEST_CASE("a comparison of ways to settle says where all of them begin", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.1, \"damping\": 30}"));
+  const Call call =
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/settle/duration=0.1,0.2"});
+  CHECK(call.code == 0);
+  CHECK_THAT(call.err, Contains("all runs settle from what '0.1' settled to"));
+}
+
 TEST_CASE("runs whose patches are others settle by themselves, and say so", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", scene_with("\"settle\": {\"duration\": 0.05, \"damping\": 30}"));

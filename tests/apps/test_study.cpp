@@ -107,6 +107,10 @@ TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]
                                     "/time/dt=2e-4,1e-4", "--vary", R"(/title="a b")", "--out", "q"});
   INFO(quoted.out + quoted.err);
   CHECK_THAT(quoted.out, Contains(R"( --set '/title="a b"')"));
+  const Call equals = call_talus(
+      scratch.folder(), {"advise", "small.json", "--error", "50%", "--quiet", "--overwrite", "--vary",
+                         "/interfaces/0/friction_angle=10,20", "--set", "/time/dt=1e-4"});
+  CHECK_THAT(equals.err, Contains("first of several that did the most work"));
   CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
 }
