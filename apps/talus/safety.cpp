@@ -152,10 +152,10 @@ void say_result(const Scene& scene, const Safety& safety) {
     return;
   }
   warn_of_run(scene, safety);
-  const std::string_view what = safety.of_what_is_left ? "what was left after settling" : "it";
+  const std::string what = safety.of_what_is_left ? "what was left after settling" : "it";
   if (const auto factor = safety.factor()) {
     fmt::print("factor of safety {:.4g}: {}stands at {:.4g}, collapses at {:.4g}\n", *factor,
-               safety.of_what_is_left ? fmt::format("{} ", what) : "", *safety.stands, *safety.falls);
+               safety.of_what_is_left ? what + " " : "", *safety.stands, *safety.falls);
     const ReducedRun& fallen = run_at(safety, *safety.falls);
     const std::vector<std::string> names = names_of(scene, fallen.moving);
     if (was_stopped(fallen))

@@ -91,8 +91,11 @@ class Index {
 };
 
 /// Each of the surface of that side of its corner which lies on the first of the lines.
-std::vector<Segment> with_chords(std::vector<Segment> segments, const std::vector<Chord>& chords,
-                                 const Index& drawn) {
+std::vector<Segment> with_chords(const std::vector<Segment>& lines, const std::vector<Chord>& chords,
+                                 double tolerance, const Geos& geos) {
+  std::vector<Segment> segments = lines;
+  if (chords.empty()) return segments;
+  const Index drawn(lines, tolerance, geos);
   for (const Chord& chord : chords) {
     const Segment* from = drawn.first_along(chord.from, chord.corner);
     const Segment* to = drawn.first_along(chord.corner, chord.to);
@@ -107,8 +110,7 @@ std::vector<Segment> with_chords(std::vector<Segment> segments, const std::vecto
 NamesOfOneLine name_edges(std::vector<Block>& blocks, const Block& domain, const std::vector<Cut>& cuts,
                           const std::vector<Chord>& chords, double tolerance, const Geos& geos) {
   NamesOfOneLine beaten;
-  const std::vector<Segment> drawn = named_segments(domain, cuts);
-  const std::vector<Segment> segments = with_chords(drawn, chords, Index(drawn, tolerance, geos));
+  const std::vector<Segment> segments = with_chords(named_segments(domain, cuts), chords, tolerance, geos);
   const Index index(segments, tolerance, geos);
   for (Block& block : blocks) {
     block.edge_surface.clear();

@@ -203,6 +203,35 @@ void warn_of_other_units(const ComparisonOrder& order, Comparison& comparison) {
   }
 }
 
+/// Of what is told of a run without being in its rows, or by few of them.
+void warn_of_rows(const ComparisonOrder& order, Comparison& comparison) {
+  const std::vector<double>& base = comparison.runs[0].result.history.time;
+  for (std::size_t run = 1; run < comparison.runs.size(); ++run) {
+    const std::vector<double>& own = comparison.runs[run].result.history.time;
+    const auto entry = std::ranges::find_if(comparison.deviations, [&](const ColumnDeviation& each) {
+      return each.run == run && !each.from_reference;
+    });
+    if (entry == comparison.deviations.end()) continue;
+    const std::string words = fmt::format("'{}' has rows at other times than '{}'",
+                                          comparison.runs[run].value, comparison.runs[0].value);
+    if (entry->deviation.between_rows) {
+      comparison.warnings.push_back(
+          words + ": between them one of the two was taken for a line; give both the same /output/history");
+    } else if (2 * entry->deviation.times < std::min(own.size(), base.size())) {
+      comparison.warnings.push_back(
+          fmt::format("{}: they are compared at the {} that both have", words, entry->deviation.times));
+    }
+    for (const double moment : order.moments) {
+      if ((row_at(own, moment) && row_at(base, moment)) || !(moment < std::min(own.back(), base.back())))
+        continue;
+      comparison.warnings.push_back(
+          fmt::format("--at {}: '{}' and '{}' do not both have a row of that time, so what is told is on the "
+                      "line between rows beside it",
+                      moment, comparison.runs[0].value, comparison.runs[run].value));
+    }
+  }
+}
+
 }  // namespace
 
 void check_order(const ComparisonOrder& order) {
@@ -234,40 +263,6 @@ bool Comparison::tolerances_held() const {
   }
   return true;
 }
-
-namespace {
-
-/// Of what is told of a run without being in its rows, or by few of them.
-void warn_of_rows(const ComparisonOrder& order, Comparison& comparison) {
-  const std::vector<double>& base = comparison.runs[0].result.history.time;
-  for (std::size_t run = 1; run < comparison.runs.size(); ++run) {
-    const std::vector<double>& own = comparison.runs[run].result.history.time;
-    const auto entry = std::ranges::find_if(comparison.deviations, [&](const ColumnDeviation& each) {
-      return each.run == run && !each.from_reference;
-    });
-    if (entry == comparison.deviations.end()) continue;
-    const std::string words = fmt::format("'{}' has rows at other times than '{}'",
-                                          comparison.runs[run].value, comparison.runs[0].value);
-    if (entry->deviation.between_rows) {
-      comparison.warnings.push_back(
-          words + ": between them one of the two was taken for a line; give both the same /output/history");
-    } else if (2 * entry->deviation.times < std::min(own.size(), base.size())) {
-      comparison.warnings.push_back(
-          fmt::format("{}: they are compared at the {} that both have", words, entry->deviation.times));
-    }
-    for (const double moment : order.moments) {
-      if ((row_at(own, moment) && row_at(base, moment)) || !(moment < std::min(own.back(), base.back())))
-        continue;
-      comparison.warnings.push_back(
-          fmt::format("--at {}: '{}' and '{}' do not both have a row of that time, so what is told is on the "
-                      "line between "
-                      "rows beside it",
-                      moment, comparison.runs[0].value, comparison.runs[run].value));
-    }
-  }
-}
-
-}  // namespace
 
 void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   for (std::size_t run = 0; run < comparison.runs.size(); ++run) {

@@ -98,7 +98,7 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
         {"file", order.reference->file}, {"copy", reference_copy}, {"xxh3_128", order.reference->hash}};
   json["meaning"] = {
       {"deviation",
-       "run minus baseline, at the times of the coarser history, or run minus reference (linear between "
+       "run minus baseline, at the times of which both have a row, or run minus reference (linear between "
        "its rows, within its range)"},
       {"cost_at_equal_dt", "CPU seconds per step, over the baseline's; settling and writing not counted"},
       {"cost_at_own_dt",

@@ -1,24 +1,19 @@
 #include "study/rounding.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "geometry/box.hpp"
+
 #include <numbers>
+#include <vector>
 
 namespace talus {
 namespace {
 
 /// m, of all bodies together.
 double extent_of(const Scene& scene) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec2 low{far, far}, high{-far, -far};
-  for (const SceneBody& body : scene.bodies) {
-    for (const Vec2& vertex : body.outer.vertices) {
-      low = {std::min(low.x, vertex.x), std::min(low.y, vertex.y)};
-      high = {std::max(high.x, vertex.x), std::max(high.y, vertex.y)};
-    }
-  }
-  return scene.bodies.empty() ? 0 : std::max(high.x - low.x, high.y - low.y);
+  std::vector<Vec2> vertices;
+  for (const SceneBody& body : scene.bodies)
+    vertices.insert(vertices.end(), body.outer.vertices.begin(), body.outer.vertices.end());
+  return vertices.empty() ? 0 : box_around(vertices).size();
 }
 
 }  // namespace

@@ -99,10 +99,10 @@ function costChart() {
         name: run.label,
         index,
         x: run.record.cost.stepping['cpu [s]'],
-        y: run.record.end !== 'finished' ? null : entry ? entry.rms : index === 0 && !data.reference ? 0 : null,
+        y: entry ? entry.rms : index === 0 && !data.reference ? 0 : null,
       };
     })
-    .filter((point) => point.y !== null);
+    .filter((point) => point.y !== null && runs[point.index].record.end === 'finished');
   if (points.length < 2) return;
   byId('cost').hidden = false;
   byId('cost-legend').textContent = `RMS of ${name} from ${data.reference ? 'the reference' : runs[0].label}`;
