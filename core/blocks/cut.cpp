@@ -124,7 +124,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
   std::vector<Block>& blocks = made.blocks;
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
-  const Bridged bridged = bridge_pinches(blocks, geos);
+  const Bridged bridged = bridge_pinches(blocks, 10 * reach_of_size * size, geos);
   made.bridged = bridged.points;
   for (Block& block : blocks) orient(block);
   made.names_of_one_line =

@@ -178,6 +178,19 @@ class Bridges {
   std::vector<Chord> chords_;
 };
 
+/// Vertices of a ring within a distance of a point become one there. Not where it comes by twice, or would
+/// lose its area.
+void gather(Ring& ring, Vec2 point, double near) {
+  const auto is_near = [&](Vec2 vertex) { return size_of(minus(vertex, point)) <= near; };
+  const auto far = std::ranges::find_if_not(ring, is_near);
+  std::rotate(ring.begin(), far, ring.end());
+  const auto first = std::ranges::find_if(ring, is_near), last = std::find_if_not(first, ring.end(), is_near);
+  if (first == ring.end() || std::any_of(last, ring.end(), is_near)) return;
+  if (ring.end() - last + (first - ring.begin()) < 2) return;
+  *first = point;
+  ring.erase(first + 1, last);
+}
+
 /// Points that more than one loop of a block has.
 std::vector<Vec2> pinches_of(const Block& block) {
   std::vector<Vec2> found;
@@ -193,7 +206,14 @@ std::vector<Vec2> pinches_of(const Block& block) {
 
 }  // namespace
 
-Bridged bridge_pinches(std::vector<Block>& blocks, const Geos& geos) {
+Bridged bridge_pinches(std::vector<Block>& blocks, double near, const Geos& geos) {
+  std::vector<Vec2> met;
+  for (const Block& block : blocks) std::ranges::copy(pinches_of(block), std::back_inserter(met));
+  for (const Vec2 point : met) {
+    for (Block& block : blocks) {
+      for (Ring& ring : block.loops) gather(ring, point, near);
+    }
+  }
   std::vector<double> outline;
   for (const Block& block : blocks) outline.push_back(std::abs(signed_area(block.loops[0])));
   std::vector<std::size_t> order(blocks.size());

@@ -215,6 +215,35 @@ TEST_CASE("of corners that meet at a point the sharper one is cut off, however t
   }
 }
 
+TEST_CASE(
+    "blocks that touch at a corner, drawn side by side, lose as much of it as where they are closed lines",
+    "[blocks]") {
+  // Two lines that cross at (0.5, 0.3), but for the tenth digit: lengthened ones cross once more beside it.
+  const std::vector<std::vector<Vec2>> triangles{
+      {{0.5, 0.3}, {0.7, 0.22}, {0.65, 0.37}},
+      {{0.5, 0.3}, {0.3199999999, 0.3719999998}, {0.3650000001, 0.2369999999}}};
+  const auto point = [](Vec2 p) { return fmt::format("[{:.10f}, {:.10f}]", p.x, p.y); };
+  std::string sides, closed;
+  for (const auto& corners : triangles) {
+    std::string around;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string from = point(corners[i]), to = point(corners[(i + 1) % 3]);
+      sides += fmt::format(R"({}{{"points": [{}, {}]}})", sides.empty() ? "" : ", ", from, to);
+      around += from + ", ";
+    }
+    closed += fmt::format(R"({}{{"points": [{}{}]}})", closed.empty() ? "" : ", ", around, point(corners[0]));
+  }
+  const auto drawn = made(fmt::format(R"("joints": [{}])", sides)),
+             whole = made(fmt::format(R"("joints": [{}])", closed));
+  REQUIRE(drawn.size() == 3);
+  REQUIRE(whole.size() == 3);
+  CHECK(area_sum(drawn) == Approx(1).epsilon(rounding));
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(drawn[i].outer.vertices.size() == whole[i].outer.vertices.size());
+    CHECK(area_of(drawn[i]) == Approx(area_of(whole[i])).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("an opening keeps its corner, and a block within a block gives way twice", "[blocks]") {
   const auto open = made(R"("holes": [[[0.5, 0.5], [0.2, 0.6], [0.2, 0.4]]],
                             "joints": [{"points": [[0.5, 0.5], [0.9, 0.4], [0.9, 0.6], [0.5, 0.5]]}])");
