@@ -132,3 +132,28 @@ TEST_CASE("No overlap where bodies touch", "[laws]") {
   CHECK(check({box(0, 0, 1, 1), box(1, 1, 2, 2)}).overlaps == 0);
   CHECK(check({box(0, 0, 1, 1), box(0.3, 1, 0.6, 2)}).overlaps == 0);
 }
+
+TEST_CASE("Of a straight side with corners in it each part bounds the overlap, whichever body is first",
+          "[laws]") {
+  const HeldBody divided = held({{0, 0}, {1.5, 0}, {1.75, 0}, {2, 0}, {2, 1}, {0, 1}}),
+                 whole = box(-1, -1, 1.8, 1e-3);
+  for (const double angle : {0.0, 17.0, 171.0}) {
+    for (const std::uint32_t place : {0u, 1u}) {
+      INFO("turned by " << angle << " degrees, listed at " << place);
+      const HeldBody turned = moved(turned_by(angle), divided), other = moved(turned_by(angle), whole);
+      const Pieces pieces(place == 0 ? std::vector{turned, other} : std::vector{other, turned});
+      OverlapFinder finder;
+      const overlap::Polygon& common = finder.find(pieces.of[0][0], pieces.of[1][0]);
+      std::vector<double> bounds(6);
+      for (std::size_t i = 0; i < common.size(); ++i) {
+        const overlap::Corner& corner = common[i];
+        if (corner.side.body == place)
+          bounds[corner.side.index] += overlap::length(common[common.next(i)].at - corner.at);
+      }
+      CHECK(bounds[0] == Approx(1.5));
+      CHECK(bounds[1] == Approx(0.25));
+      CHECK(bounds[2] == Approx(0.05));
+      CHECK(overlap::area_centroid(common).area == Approx(1.8e-3));
+    }
+  }
+}

@@ -1,6 +1,8 @@
 #include "conformance/pairs.hpp"
 #include "contact_models/law_bench.hpp"
+#include "simulation/working_scene.hpp"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -136,5 +138,34 @@ TEST_CASE("A corner carried along with its neighbour gets no friction", "[laws]"
     REQUIRE(e.contacts.size() == 1);
     CHECK(std::hypot(e.contacts[0].tx, e.contacts[0].ty) <=
           1e-12 * std::hypot(e.contacts[0].px, e.contacts[0].py));
+  }
+}
+
+TEST_CASE("A base of two surfaces slides as far, whichever body is listed first", "[laws]") {
+  const std::string block =
+      R"({"name": "block", "material": "rock", "polygon": [[0, 0], [1.5, 0], [2, 0], [2, 0.5], [0, 0.5]],
+          "surfaces": {"smooth": [0], "rough": [1]}, "fix": ["rotation"], "velocity": [2, 0]})";
+  const std::string floor = box("floor", -3, -1, 9, 0, R"("fixed": true)");
+  const double degree = 3.14159265358979323846 / 180;
+  const double due = 4 / (2 * 10 * (0.75 * std::tan(10 * degree) + 0.25 * std::tan(40 * degree)));  // v²/2a
+  for (const char* law : {"overlap_area", "cohesive_overlap"}) {
+    for (const bool first : {true, false}) {
+      INFO(law << (first ? ", block first" : ", floor first"));
+      WorkingScene text;
+      text.law = law;
+      text.gravity = "[0, -10]";
+      text.bodies = first ? block + ", " + floor : floor + ", " + block;
+      const auto row = [](int friction) {
+        return fmt::format(R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": {},
+                              "normal_damping": 0.3, "tangential_damping": 0.3)",
+                           friction);
+      };
+      text.interface = fmt::format(R"({}}}, {{"between": ["block/smooth", "rock"], {}}},
+                                      {{"between": ["block/rough", "rock"], {})",
+                                   row(20), row(10), row(40));
+      text.time = R"({"end": 1.5})";
+      const Simulation ended = run_to_end(text);
+      CHECK(ended.body_motion(first ? 0 : 1).displacement.x == Approx(due).epsilon(0.01));
+    }
   }
 }

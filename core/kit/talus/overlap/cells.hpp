@@ -3,11 +3,13 @@
 #include <talus/overlap/piece.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace talus::overlap {
 
 /// The overlap of two convex pieces: sides labelled with the body they come from. Empty when they are apart.
+/// Corners within a straight side of either piece are corners of it, so that it is the same whichever is a.
 class OverlapFinder {
  public:
   const Polygon& find(const Piece& a, const Piece& b) {
@@ -15,13 +17,58 @@ class OverlapFinder {
     if (separated(a, b)) return polygon_;
     polygon_.make_room(b.size());
     for (std::uint32_t j = 0; j < b.size(); ++j) polygon_.append({b.at(j), {1, j}});
+    bool straight_on = false;
     for (std::uint32_t k = 0; k < a.size() && !polygon_.empty(); ++k) {
-      if (a.length(k) > 0) clipper_.clip(polygon_, {0, k}, [&](Point p) { return -a.depth(k, p); });
+      if (!(a.length(k) > 0)) continue;
+      // A second cut along one line would be where rounding has it.
+      if (goes_straight_on(a, k))
+        straight_on = true;
+      else
+        clipper_.clip(polygon_, {0, k}, [&](Point p) { return -a.depth(k, p); });
     }
+    if (straight_on && !polygon_.empty()) divide_straight_sides(a);
     return polygon_;
   }
 
  private:
+  /// Whether a side lies on the line of the one before. A turn of more is one that corners can be found at.
+  static bool goes_straight_on(const Piece& a, std::uint32_t k) {
+    constexpr double least = 1e-10;
+    if (a.is_strip() || !(a.length(k) > 0)) return false;
+    std::uint32_t before = a.previous(k);
+    while (!(a.length(before) > 0)) before = a.previous(before);
+    return std::abs(cross(a.tangent(before), a.tangent(k))) <= least &&
+           dot(a.tangent(before), a.tangent(k)) > 0;
+  }
+
+  /// Of sides on one line the first has cut: each gets its own part of the edge.
+  void divide_straight_sides(const Piece& a) {
+    whole_.swap(polygon_);
+    polygon_.clear();
+    polygon_.make_room(whole_.size() + a.size());
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      Corner corner = whole_[i];
+      if (corner.side.body != 0) {
+        polygon_.append(corner);
+        continue;
+      }
+      const Point start = corner.at, end = whole_[whole_.next(i)].at;
+      std::uint32_t& side = corner.side.index;
+      for (std::uint32_t next = a.next(side); next != whole_[i].side.index; next = a.next(next)) {
+        if (!(a.length(next) > 0)) continue;
+        if (!goes_straight_on(a, next)) break;
+        const Point at = a.at(next), along = a.tangent(next);
+        if (!(dot(along, end - at) > 0)) break;
+        if (dot(along, at - start) > 0) {
+          polygon_.append(corner);
+          corner.at = at;
+        }
+        side = next;
+      }
+      polygon_.append(corner);
+    }
+  }
+
   /// Whether the line of some side has the whole other piece outside.
   static bool separated(const Piece& a, const Piece& b) { return one_way(a, b) || one_way(b, a); }
 
@@ -39,7 +86,7 @@ class OverlapFinder {
     return true;
   }
 
-  Polygon polygon_;
+  Polygon polygon_, whole_;
   Clipper clipper_;
 };
 
