@@ -112,8 +112,9 @@ class BondFinder {
     return false;
   }
 
-  /// Calls visit(faces, lever_a, lever_b, length) for two points of each stretch along which sides face each
-  /// other and touch or overlap: those of Gauss, with which even bending is carried as by all of the stretch.
+  /// Calls visit(faces, lever_a, lever_b, beside, length) for two points of each stretch along which sides
+  /// face each other, where they touch or overlap: those of Gauss, with which even bending is carried as by
+  /// all of the stretch. `beside` is lever_a of the other one, whether that touches or not.
   template <class Visit>
   void find_touching(const Visit& visit) const {
     for (const Faces& pieces : faces_) {
@@ -138,12 +139,12 @@ class BondFinder {
     const double stretch = (to - from) * a.length(i);
     if (!(stretch > 1e-6 * std::min(a.length(i), b.length(j)))) return;
     constexpr double half = 0.28867513459481287;  // 1/(2 √3)
-    for (const double place : {0.5 - half, 0.5 + half}) {
-      const double lever_a = from + place * (to - from);
+    for (const double aside : {-half, half}) {
+      const double lever_a = from + (0.5 + aside) * (to - from), beside = from + (0.5 - aside) * (to - from);
       const Point on_a = (1 - lever_a) * a.at(i) + lever_a * a.at(a.next(i));
       const double lever_b = std::clamp(b.lever(j, on_a), 0.0, 1.0), depth = b.depth(j, on_a);
-      if (depth < -touching(faces) || !shallow(a, i, depth) || !shallow(b, j, depth)) return;
-      visit(faces, lever_a, lever_b, stretch / 2);
+      if (depth < -touching(faces) || !shallow(a, i, depth) || !shallow(b, j, depth)) continue;
+      visit(faces, lever_a, lever_b, beside, stretch / 2);
     }
   }
 

@@ -173,24 +173,30 @@ class CohesiveOverlap final : public ContactModel {
 
   static void form_bonds(const ContactBatch& batch, Workspace& work) {
     const std::size_t known = work.bonds.size();
-    work.finder.find_touching([&](const Faces& faces, double lever_a, double lever_b, double length) {
-      Bond bond{1.0 + faces.a.first_corner() + faces.side_a,
-                1.0 + faces.b.first_corner() + faces.side_b,
-                lever_a,
-                lever_b,
-                length,
-                0,
-                0,
-                0};
-      for (std::size_t i = 0; i < known; ++i) {
-        if (work.bonds[i].side_a == bond.side_a && work.bonds[i].side_b == bond.side_b) return;
-      }
-      if (!(strength_of(values_of(batch, bond)).cohesion > 0)) return;
-      const Separation separation = state_of(faces, bond).separation;
-      bond.opening = separation.opening;
-      bond.slip = separation.slip;
-      work.bonds.push_back(bond);
-    });
+    work.finder.find_touching(
+        [&](const Faces& faces, double lever_a, double lever_b, double beside, double length) {
+          Bond bond{1.0 + faces.a.first_corner() + faces.side_a,
+                    1.0 + faces.b.first_corner() + faces.side_b,
+                    lever_a,
+                    lever_b,
+                    length,
+                    0,
+                    0,
+                    0};
+          // A joint that closes from one end on has one of its two bonds before the other.
+          int of_these_sides = 0;
+          for (std::size_t i = 0; i < known; ++i) {
+            const Bond& old = work.bonds[i];
+            if (old.side_a != bond.side_a || old.side_b != bond.side_b) continue;
+            const bool is_this = std::abs(old.lever_a - lever_a) <= std::abs(old.lever_a - beside);
+            if (is_this || ++of_these_sides == 2) return;
+          }
+          if (!(strength_of(values_of(batch, bond)).cohesion > 0)) return;
+          const Separation separation = state_of(faces, bond).separation;
+          bond.opening = separation.opening;
+          bond.slip = separation.slip;
+          work.bonds.push_back(bond);
+        });
   }
 
   /// Applies one bond. False when nothing is left of it.

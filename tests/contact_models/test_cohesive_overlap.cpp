@@ -228,6 +228,22 @@ TEST_CASE("cohesive_overlap: forms bonds only when told to, between sides that t
   CHECK(bench.look().contacts.size() <= 1);
 }
 
+TEST_CASE(
+    "cohesive_overlap: a joint that closes from one end on is bonded along all of it, whichever end that is",
+    "[laws][cohesive_overlap]") {
+  for (const double tilt : {-0.1, 0.0, 0.1}) {  // degrees, about the middle of the face: 0.9 mm to either end
+    INFO("tilted by " << tilt);
+    LawBench bench("cohesive_overlap", joint());
+    bench.bonds_form = bench.hold_stick = true;
+    bench.bodies = {box(-2, -1, 2, 0), moved(turned_by(tilt), box(-0.5, 1e-6, 0.5, 1))};
+    CHECK(bench.step().pairs[0].contact_count == (tilt == 0 ? 0 : 2));  // an overlap, and half a bond
+    bench.bodies[1] = box(-0.5, -1e-6, 0.5, 1);
+    CHECK(bench.step().pairs[0].contact_count == 3);
+    bench.bodies[1] = box(-0.5, 1e-5, 0.5, 1);
+    CHECK(bench.step().on(1).y == Approx(-across_joint * 1e-5).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("cohesive_overlap: while held, nothing breaks; once let go, what is too much does",
           "[laws][cohesive_overlap]") {
   Joint joint;
