@@ -62,6 +62,7 @@ class Reduction {
   Reduction(const Scene& scene, const SafetySettings& settings) : scene_(scene), settings_(settings) {
     scene_.output.frames.reset();
     scene_.output.history = scene_.time.end / 2;
+    hold_loads();
     scene_.time.end *= longest;
     run_.threads = settings.threads;
     Simulation whole(with_reduced_strength(scene_, 1), run_);
@@ -104,6 +105,24 @@ class Reduction {
   }
 
  private:
+  /// Runs that go on for longer than the scene lasts see no loads that it does not have.
+  void hold_loads() {
+    const double end = scene_.time.end;
+    double last_change = -std::numeric_limits<double>::infinity();
+    const auto hold = [&](Function& function) {
+      function = function.held_from(end);
+      last_change = std::max(last_change, function.last_change());
+    };
+    for (PointLoad& load : scene_.loads) std::ranges::for_each(load.force, hold);
+    for (SurfaceLoad& load : scene_.surface_loads) {
+      std::ranges::for_each(load.traction, hold);
+      hold(load.pressure);
+    }
+    for (const Function& ground : scene_.base_acceleration)
+      last_change = std::max(last_change, ground.last_change());
+    loads_change_late_ = last_change > end / 2;
+  }
+
   /// All runs start from there, and motions count from it.
   void stand(const Simulation& simulation) {
     stood_ = parts_of(simulation);
@@ -256,9 +275,11 @@ class Reduction {
       return true;
     };
     const std::vector<Vec2> began = pieces_->places(simulation);
-    if (!advance(2)) return false;  // t = 0 and half of the time
+    // What follows a load that still grows goes on, too: whether it does without is seen after the end.
+    int times = loads_change_late_ ? 2 : 1;
+    if (!advance(1 + times)) return false;  // t = 0 and half of the time
     PieceMotions middle = pieces_->motions(simulation, began);
-    for (int times = 1;; times *= 2) {
+    for (;; times *= 2) {
       if (!advance(times)) return false;
       PieceMotions end = pieces_->motions(simulation, began);
       const double to_tell = judge(middle, end, static_cast<double>(longest) / times, result);
@@ -302,7 +323,7 @@ class Reduction {
   Geometry geometry_;
   std::vector<MovedPart> stood_;
   std::optional<Pieces> pieces_;
-  bool settled_ = false, of_what_is_left_ = false;
+  bool settled_ = false, of_what_is_left_ = false, loads_change_late_ = false;
   std::vector<std::string> warnings_;
 };
 

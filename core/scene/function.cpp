@@ -1,6 +1,7 @@
 #include "scene/function.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace talus {
@@ -56,6 +57,31 @@ double Table::integral(double where) const {
   return antiderivative(where) - area_at_zero_;
 }
 
+Table Table::held_from(double where) const {
+  if (at_.back() <= where) return *this;
+  std::vector<double> at, value;
+  for (std::size_t i = 0; i < at_.size() && at_[i] < where; ++i)
+    at.push_back(at_[i]), value.push_back(value_[i]);
+  at.push_back(where);
+  value.push_back((*this)(where));
+  return {std::move(at), std::move(value)};
+}
+
+double Table::last_change() const {
+  std::size_t last = value_.size() - 1;
+  while (last > 0 && value_[last - 1] == value_.back()) --last;
+  return last == 0 ? -std::numeric_limits<double>::infinity() : at_[last];
+}
+
+bool Table::zero_within(double low, double high) const {
+  if ((*this)(low) != 0 || (*this)(high) != 0) return false;
+  for (auto point = std::upper_bound(at_.begin(), at_.end(), low); point != at_.end() && *point < high;
+       ++point) {
+    if (value_[static_cast<std::size_t>(point - at_.begin())] != 0) return false;
+  }
+  return true;
+}
+
 double Function::operator()(double time, Vec2 at) const {
   double sum = 0;
   for (const Product& product : terms)
@@ -84,6 +110,28 @@ Function Function::frozen(double time) const {
     product.time.reset();
   }
   return still;
+}
+
+Function Function::held_from(double time) const {
+  Function held = *this;
+  for (Product& product : held.terms) {
+    if (product.time) product.time = product.time->held_from(time);
+  }
+  return held;
+}
+
+bool Function::zero_within(Vec2 low, Vec2 high) const {
+  return std::ranges::all_of(terms, [&](const Product& term) {
+    return (term.x && term.x->zero_within(low.x, high.x)) || (term.y && term.y->zero_within(low.y, high.y));
+  });
+}
+
+double Function::last_change() const {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const Product& product : terms) {
+    if (product.time) last = std::max(last, product.time->last_change());
+  }
+  return last;
 }
 
 Function Function::integrated(double time) const {

@@ -290,6 +290,41 @@ TEST_CASE("A factor depends neither on the size of a block nor on the time it is
   CHECK(factor_of(on_a_plane(1, {{"/time/end", "0.05"}})) == Approx(on_a_plane_due).epsilon(0.015));
 }
 
+TEST_CASE("What follows a load that grows to the end has not failed, and no load grows on after it",
+          "[safety]") {
+  const auto scene = [](const char* end, const char* load) {
+    return from_text(
+        fmt::format(
+            fmt::runtime(rock_scene), "overlap_area", 30, "",
+            R"({"name": "base", "polygon": [[-4, -1], [6, -1], [6, 0], [-4, 0]], "material": "rock", "fixed": true},
+         {"name": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "material": "rock", "cover": {"model": "rigid"}})"),
+        {{"/interfaces/0/normal_stiffness", "1e8"},
+         {"/interfaces/0/tangential_stiffness", "1e8"},
+         {"/time/end", end},
+         {"/loads", load}});
+  };
+  // Pressed down by 3 mm it stands whatever its friction.
+  for (const char* end : {"1", "1.25", "1.5"}) {
+    INFO("ends at " << end);
+    SafetySettings settings;
+    settings.highest = 3;
+    const Safety pressed = factor_of_safety(
+        scene(
+            end,
+            R"([{"body": "a", "point": [1, 0.5], "force": [0, [{"scale": -6e5, "time": [[0, 0], [1, 1]]}]]}])"),
+        settings);
+    CHECK(pressed.stands.value_or(0) > 2);
+    CHECK_FALSE(pressed.falls);
+  }
+  // Pushed by 10 kN at the end of the run, by 40 kN had it gone on.
+  const double weight = 2 * 2300 * 9.81;
+  CHECK(
+      factor_of(scene(
+          "1",
+          R"([{"body": "a", "point": [1, 0.3], "force": [[{"scale": 4e4, "time": [[0, 0], [4, 1]]}], 0]}])")) ==
+      Approx(weight * std::tan(30 * degree) / 1e4).epsilon(0.015));
+}
+
 TEST_CASE("What slides while it settles with less strength is told by how it goes on", "[safety]") {
   const char* settle = R"({"duration": 2, "damping": 50, "hold_stick": false})";
   const auto scene = [&] { return on_a_plane(1, {{"/time/end", "0.05"}, {"/settle", settle}}); };

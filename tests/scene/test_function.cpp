@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <limits>
 
 using namespace talus;
@@ -123,4 +124,18 @@ TEST_CASE("what is shorter than a step acts with its mean over the step", "[scen
   CHECK(table.over({5, 0, 1}) == Approx(table(5.25)).epsilon(1e-15));  // the half step at the start
   CHECK(table.over({5, 1, 0}) == Approx(table(4.75)).epsilon(1e-15));  // and the one before a stage
   CHECK(of_time(table, 2).over({0, 1, 1}, {}) == Approx(2 * (4.5 * 0.5 + (5 - 0.5) * 0.5)).epsilon(1e-12));
+}
+
+TEST_CASE("a function that is held keeps from a time on what it is then", "[scene]") {
+  const Function function = of_time(sample_table(), 2) + of_time({{1}, {4}});
+  CHECK(function.last_change() == 3);
+  CHECK(Function{}.last_change() == -std::numeric_limits<double>::infinity());
+  for (const double from : {-3.0, 0.0, 1.5, 7.0}) {
+    const Function held = function.held_from(from);
+    for (const double time : {-2.5, -1.0, 0.0, 1.0, 1.5, 2.0, 9.0})
+      CHECK(held(time, {}) == function(std::min(time, from), {}));
+    CHECK(held.last_change() ==
+          (from == -3 ? -std::numeric_limits<double>::infinity() : std::min(from, 3.0)));
+  }
+  CHECK(Table({0, 1, 2, 5}, {0, 3, 3, 3}).last_change() == 1);
 }
