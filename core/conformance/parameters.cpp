@@ -36,6 +36,22 @@ MadeFrom make_from(const Component& component, const std::vector<double>& values
   return {false, words};
 }
 
+void expect_state_that_fits(const Subject& subject, const std::vector<double>& values, Trial& trial) {
+  std::uint32_t kept = 0;
+  switch (subject.component->component->kind) {
+    case ComponentKind::contact_model:
+      kept = make<ContactModel>(*subject.component, values)->doubles_per_contact();
+      break;
+    case ComponentKind::material:
+      kept = make<Material>(*subject.component, values)->doubles_per_element();
+      break;
+    default:
+      return;
+  }
+  trial.due(kept <= most_state_doubles, fmt::format("{} doubles kept per contact or element", kept),
+            fmt::format("{} at most", most_state_doubles));
+}
+
 }  // namespace
 
 void check_parameters(const Subject& subject, Trial& trial) {
@@ -46,6 +62,7 @@ void check_parameters(const Subject& subject, Trial& trial) {
   const MadeFrom usual = make_from(component, samples, 512, trial);
   trial.due(usual.made, "refused: " + usual.words,
             "an object: these are defaults, and values within the ranges");
+  if (usual.made) expect_state_that_fits(subject, samples, trial);
 
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double huge = std::numeric_limits<double>::max();

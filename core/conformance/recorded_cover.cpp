@@ -1,5 +1,7 @@
 #include "conformance/recorded_cover.hpp"
 
+#include "plugin/registry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -106,6 +108,10 @@ void RecordedCover::add_boundary_vertex(double x, double y, std::uint32_t elemen
 void RecordedCover::close_boundary_loop() noexcept {
   loops.push_back(std::move(open_));
   open_.clear();
+}
+
+void RecordedCover::refuse(const char* why) noexcept {
+  refusal = words_of_plugin(why != nullptr ? why : "");
 }
 
 void RecordedCover::steady_patch(std::uint32_t patch, const std::uint32_t to[3], const double w[3],

@@ -65,7 +65,7 @@ class RecordedCover final : public CoverSink {
                     double inertia_area) noexcept override;
   void scale_strain_mass(double scale) noexcept override { strain_mass_scale = scale; }
   void make_rigid() noexcept override { rigid = true; }
-  void refuse(const char* why) noexcept override { refusal = why; }
+  void refuse(const char* why) noexcept override;
 
   /// Shape functions of an element's star triangle.
   std::array<double, 3> weights(std::uint32_t element, Point at) const;

@@ -22,8 +22,6 @@ constexpr double clear_share = 0.8;
 /// Of near_: m, by which places may be off by rounding, and gaps so much smaller than a law says.
 constexpr double rounding_share = 1e-9;
 
-constexpr std::uint32_t most_history_doubles = 4096;
-
 void noop(void* /*object*/) noexcept {}
 
 /// [surface class] the first that meets all others at the same interfaces.
@@ -108,11 +106,11 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
   straight_beyond_ = straight_beyond_of(model);
   law_ = make<ContactModel>(*scene.contact.component, scene.contact.values);
   const std::uint32_t history_doubles = law_->doubles_per_contact();
-  if (history_doubles > most_history_doubles) {
+  if (history_doubles > most_state_doubles) {
     throw PluginError(fmt::format(
         "{}: contact law '{}' gave {} doubles of history per contact; wanted {} at most; mend the law",
         scene.contact.component->file.string(), scene.contact.component->component->name, history_doubles,
-        most_history_doubles));
+        most_state_doubles));
   }
   slots_.keep(history_doubles, seen);
   interfaces_ = {scene.interface_row.data(), nullptr, static_cast<std::uint32_t>(scene.surfaces.size()),

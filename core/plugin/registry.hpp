@@ -97,6 +97,9 @@ std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::
 /// nothing, that.
 std::string words_of_plugin(std::string_view said);
 
+/// Doubles that a contact law may keep per contact, a material per element.
+inline constexpr std::uint32_t most_state_doubles = 4096;
+
 /// Owns an object made by a plugin, destroyed by the same plugin.
 template <class Interface>
 using Made = std::unique_ptr<Interface, void (*)(void*) noexcept>;

@@ -26,8 +26,7 @@ void refuse_unsound(const Material& material, const RegisteredComponent& compone
   const double viscous_time = material.viscous_time();
   if (!(std::isfinite(viscous_time) && viscous_time >= 0))
     refuse("its viscous time", viscous_time, "a finite number from 0 on");
-  constexpr std::uint32_t most_states = 4096;
-  if (material.doubles_per_element() > most_states)
+  if (material.doubles_per_element() > most_state_doubles)
     refuse("the doubles it keeps per element", material.doubles_per_element(), "4096 at most");
 }
 
