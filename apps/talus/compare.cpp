@@ -12,6 +12,7 @@
 #include "output/output_folder.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
+#include "scene/read.hpp"
 #include "scene_options.hpp"
 
 #include <fmt/format.h>
@@ -36,8 +37,14 @@ std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& g
     std::vector<Override> overrides = order.overrides;
     overrides.push_back({order.variation.pointer, value});
     Registry& registry = registries.emplace_back(offered_registry(usage, given));
-    order.scenes.push_back(
-        read_scene_of(source, registry, overrides, given.count("allow-plugins") != 0, log));
+    try {
+      order.scenes.push_back(
+          read_scene_of(source, registry, overrides, given.count("allow-plugins") != 0, log));
+    } catch (const SceneError&) {
+      // The mistakes may lie beside the key that varies, in what is right with the scene's own value.
+      log.error(fmt::format("with {} = {}:", order.variation.pointer, value));
+      throw;
+    }
     for (const std::string& warning : order.scenes.back().warnings) {
       if (warnings.insert(warning).second) log.warning(warning);
     }

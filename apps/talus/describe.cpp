@@ -90,7 +90,10 @@ int describe_command(const Words& words) {
   const std::string name = without_stage(text_option(*given, "NAME"));
   const Registry registry = load_registry(usage, *given);
   for (const RegisteredComponent& entry : registry.components()) {
-    if (name != entry.component->name) continue;
+    const bool is_law = entry.component->kind == ComponentKind::contact_model;
+    if (name != entry.component->name &&
+        !(is_law && name == fmt::format("/contact/{}", entry.component->name)))
+      continue;
     print_component(entry);
     return exit_code::ok;
   }

@@ -28,54 +28,79 @@ bool begins_with(const Tokens& pattern, const Tokens& given) {
                     });
 }
 
-bool leads_to_list(const std::string& pointer, const Part& part) {
-  const Tokens pattern = tokens_of(part.pointer), given = tokens_of(pointer);
-  return given.size() + 1 == pattern.size() && pattern.back() == "*" && begins_with(pattern, given);
+/// Keys in one place of a scene: of a section, or of a component where its parameters stand.
+struct KeyPlace {
+  std::string pointer;  ///< "/bodies/*"
+  std::string of;       ///< for a reader
+  std::vector<Key> keys;
+};
+
+bool leads_to_list(const std::string& given, const std::string& pointer) {
+  const Tokens pattern = tokens_of(pointer), tokens = tokens_of(given);
+  return tokens.size() + 1 == pattern.size() && pattern.back() == "*" && begins_with(pattern, tokens);
 }
 
-bool leads_to_entry(const std::string& pointer, const Part& part) {
-  const Tokens pattern = tokens_of(part.pointer), given = tokens_of(pointer);
-  return given.size() == pattern.size() && begins_with(pattern, given);
+bool leads_to_entry(const std::string& given, const std::string& pointer) {
+  const Tokens pattern = tokens_of(pointer), tokens = tokens_of(given);
+  return tokens.size() == pattern.size() && begins_with(pattern, tokens);
 }
 
-/// What a component declares for this section.
-std::vector<Key> keys_in(const Part& part, const Component& component) {
-  const bool law = component.kind == ComponentKind::contact_model,
-             material = component.kind == ComponentKind::material;
-  if (law && part.pointer == "/interfaces/*") return interface_keys_of(component);
-  const char* const own = law ? "/contact" : material ? "/materials/*" : "/cover";
-  return part.pointer == own ? keys_of(component) : std::vector<Key>{};
+std::vector<KeyPlace> places_of(const Component& component) {
+  const std::vector<Key> keys = keys_of(component);
+  const auto of = [&](const char* pointer) { return fmt::format("{} of {}", pointer, component.name); };
+  switch (component.kind) {
+    case ComponentKind::contact_model: {
+      const std::string own = fmt::format("/contact/{}", component.name);
+      return {{own, own, keys}, {"/interfaces/*", of("/interfaces/*"), interface_keys_of(component)}};
+    }
+    case ComponentKind::material:
+      return {{"/materials/*", of("/materials/*"), keys}};
+    case ComponentKind::cover_builder:
+      return {{"/cover", of("/cover"), keys}};
+  }
+  return {};
 }
 
-/// The sections that hold what the pointer names, and that name; of a bare word all sections.
+/// All of them, each once. A cover of a body or of blocks has the keys of that of the scene.
+std::vector<KeyPlace> places_in(const std::vector<Part>& parts, const Registry& registry) {
+  std::vector<KeyPlace> places;
+  for (const Part& part : parts) {
+    places.push_back({part.pointer, part.pointer, part.keys});
+    for (const RegisteredComponent& entry : registry.components()) {
+      for (KeyPlace& place : places_of(*entry.component)) {
+        const std::string section = place.pointer.starts_with("/contact/") ? "/contact" : place.pointer;
+        if (section == part.pointer) places.push_back(std::move(place));
+      }
+    }
+  }
+  return places;
+}
+
+/// Where what the pointer names may stand, and that name; of a bare word anywhere.
 struct Holder {
-  std::vector<const Part*> parts;
+  std::vector<KeyPlace> places;
   std::string above, key;
 
-  Holder(const std::vector<Part>& all, const std::string& name) {
+  Holder(const std::vector<Part>& parts, const Registry& registry, const std::string& name) {
     const std::size_t slash = name.rfind('/');
     const bool bare = slash == std::string::npos;
     key = bare ? name : name.substr(slash + 1);
     above = bare ? "" : name.substr(0, slash);
-    for (const Part& part : all) {
-      if (bare || leads_to_entry(above, part) || leads_to_list(above, part)) parts.push_back(&part);
+    for (KeyPlace& place : places_in(parts, registry)) {
+      const bool cover = place.pointer == "/cover" && (leads_to_entry(above, "/bodies/*/cover") ||
+                                                       leads_to_entry(above, "/blocks/*/cover"));
+      if (bare || cover || leads_to_entry(above, place.pointer) || leads_to_list(above, place.pointer))
+        places.push_back(std::move(place));
     }
   }
 };
-
-template <class Visit>
-void each_list_of_keys(const Part& part, const Registry& registry, const Visit& visit) {
-  visit(part.pointer, part.keys);
-  for (const RegisteredComponent& entry : registry.components())
-    visit(fmt::format("{} of {}", part.pointer, entry.component->name), keys_in(part, *entry.component));
-}
 
 }  // namespace
 
 const Part* section_at(const std::vector<Part>& parts, const std::string& pointer) {
   const auto is_it = [&](const Part& part) {
-    return part.pointer == pointer || leads_to_list(pointer, part) ||
-           (!part.pointer.ends_with('*') && leads_to_entry(pointer, part));
+    return part.pointer == pointer || leads_to_list(pointer, part.pointer) ||
+           (!part.pointer.ends_with('*') && leads_to_entry(pointer, part.pointer));
   };
   const auto found = std::find_if(parts.begin(), parts.end(), is_it);
   return pointer.starts_with('/') && found != parts.end() ? &*found : nullptr;
@@ -83,19 +108,17 @@ const Part* section_at(const std::vector<Part>& parts, const std::string& pointe
 
 const Part* entry_at(const std::vector<Part>& parts, const std::string& pointer) {
   const auto found = std::find_if(parts.begin(), parts.end(),
-                                  [&](const Part& part) { return leads_to_entry(pointer, part); });
+                                  [&](const Part& part) { return leads_to_entry(pointer, part.pointer); });
   return pointer.starts_with('/') && found != parts.end() ? &*found : nullptr;
 }
 
 std::vector<KeysFound> keys_named(const std::vector<Part>& parts, const Registry& registry,
                                   const std::string& name) {
   std::vector<KeysFound> found;
-  const Holder holder(parts, name);
-  for (const Part* part : holder.parts) {
-    each_list_of_keys(*part, registry, [&](const std::string& of, std::vector<Key> keys) {
-      std::erase_if(keys, [&](const Key& key) { return key.name != holder.key; });
-      if (!keys.empty()) found.push_back({of, std::move(keys)});
-    });
+  Holder holder(parts, registry, name);
+  for (KeyPlace& place : holder.places) {
+    std::erase_if(place.keys, [&](const Key& key) { return key.name != holder.key; });
+    if (!place.keys.empty()) found.push_back({place.of, std::move(place.keys)});
   }
   return found;
 }
@@ -104,11 +127,9 @@ std::vector<std::string> pointers_beside(const std::vector<Part>& parts, const R
                                          const std::string& pointer) {
   std::vector<std::string> names;
   if (!pointer.starts_with('/')) return names;
-  const Holder holder(parts, pointer);
-  for (const Part* part : holder.parts) {
-    each_list_of_keys(*part, registry, [&](const std::string&, const std::vector<Key>& keys) {
-      for (const Key& key : keys) names.push_back(holder.above + '/' + key.name);
-    });
+  const Holder holder(parts, registry, pointer);
+  for (const KeyPlace& place : holder.places) {
+    for (const Key& key : place.keys) names.push_back(holder.above + '/' + key.name);
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

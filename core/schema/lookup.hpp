@@ -10,7 +10,7 @@ namespace talus {
 
 /// Keys of one section or component, for a reader.
 struct KeysFound {
-  std::string of;  ///< "/bodies/*", or "/materials/* of linear_elastic"
+  std::string of;  ///< "/bodies/*", "/contact/overlap_area" or "/materials/* of linear_elastic"
   std::vector<Key> keys;
 };
 

@@ -100,6 +100,15 @@ TEST_CASE("a comparison that cannot be made removes no results", "[apps][compare
   CHECK(read_whole_file(scratch / "out/small-compare/compare.csv") == before);
 }
 
+TEST_CASE("compare says with which value a scene has a mistake", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call =
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/cover/model=rigid,bloc"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("with /cover/model = bloc:\n") && !Contains("= rigid"));
+}
+
 TEST_CASE("each run keeps its own step where the time settings vary", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

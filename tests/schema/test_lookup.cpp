@@ -28,6 +28,12 @@ TEST_CASE("describe takes pointers as messages have them", "[schema]") {
   CHECK_THAT(described("/bodies/3/drive"), Contains("/bodies/*/drive (section of a scene)"));
   CHECK_THAT(described("/gravity"), Contains("A key of /\n") && Contains("m/s2"));
   CHECK_THAT(described("/time/end"), Contains("A key of /time\n") && !Contains("safety"));
+  CHECK_THAT(described("/contact/overlap_area/friction_rule"),
+             Contains("A key of /contact/overlap_area\n") && !Contains("cohesive"));
+  CHECK_THAT(described("/contact/overlap_area"),
+             Contains("overlap_area (contact law") && Contains("Parameters"));
+  for (const char* pointer : {"/bodies/1/cover/size", "/blocks/0/cover/size", "/cover/size"})
+    CHECK_THAT(described(pointer), Contains("A key of /cover of hexagonal\n"));
 }
 
 TEST_CASE("describe finds a key by its name, those of components among them", "[schema]") {
@@ -45,4 +51,8 @@ TEST_CASE("describe guesses a key among those beside it", "[schema]") {
   CHECK(call.code == 2);
   CHECK_THAT(call.err,
              Contains("did you mean '/time/end'?") && Contains("/time/safety") && !Contains("/sleep"));
+  const Call law = call_talus(scratch.folder(), {"describe", "/contact/overlap_area/friction_rul"});
+  CHECK(law.code == 2);
+  CHECK_THAT(law.err,
+             Contains("did you mean '/contact/overlap_area/friction_rule'?") && !Contains("calibration"));
 }
