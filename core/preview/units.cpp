@@ -59,7 +59,7 @@ void question_interface(const Scene& scene, std::size_t row, std::vector<std::st
   }
   if (value("normal_stiffness") == 0) {
     raised.push_back(
-        fmt::format("normal_stiffness of /interfaces/{} is 0: bodies go through each other there", row));
+        fmt::format("normal_stiffness of /interfaces/{} is 0: nothing keeps bodies apart there", row));
   }
 }
 

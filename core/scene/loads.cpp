@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -101,6 +103,39 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
   return past;
 }
 
+/// The corners of the box around a surface of a body.
+std::optional<std::array<Vec2, 2>> extent_of(const SceneBody& body, std::uint32_t surface_class) {
+  std::optional<std::array<Vec2, 2>> extent;
+  const auto take = [&](const Loop& loop) {
+    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+      if (loop.surface_class[i] != surface_class) continue;
+      for (const Vec2 end : {loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()]}) {
+        if (!extent) extent = {end, end};
+        auto& [low, high] = *extent;
+        low = {std::min(low.x, end.x), std::min(low.y, end.y)};
+        high = {std::max(high.x, end.x), std::max(high.y, end.y)};
+      }
+    }
+  };
+  take(body.outer);
+  std::ranges::for_each(body.holes, take);
+  return extent;
+}
+
+/// Tables over place are in the scene's coordinates: those from a drawing of its own miss the surface.
+void warn_of_idle_tables(Reading& reading, const Section& section, const SurfaceLoad& load, const char* key,
+                         const Function& function) {
+  const SceneBody& body = reading.scene.bodies[load.body];
+  const auto extent = extent_of(body, load.surface_class);
+  if (function.zero() || !extent) return;
+  const auto [low, high] = *extent;
+  if (!function.zero_within(low, high)) return;
+  reading.scene.warnings.push_back(fmt::format(
+      "{}: the tables over place are 0 all along that surface of '{}', which reaches from ({:.6g}, "
+      "{:.6g}) to ({:.6g}, {:.6g}) m",
+      section.pointer_to(key), body.name, low.x, low.y, high.x, high.y));
+}
+
 SurfaceLoad read_surface_load(Reading& reading, Section& section) {
   SurfaceLoad load{};
   const auto body = take_body(reading, section);
@@ -116,6 +151,11 @@ SurfaceLoad read_surface_load(Reading& reading, Section& section) {
   if (!given) {
     reading.mistakes.add(section.pointer(),
                          "nothing acts: expected \"traction\": [tx, ty] [Pa] or \"pressure\" [Pa]");
+  }
+  if (body) {
+    for (const Function& along : load.traction)
+      warn_of_idle_tables(reading, section, load, "traction", along);
+    warn_of_idle_tables(reading, section, load, "pressure", load.pressure);
   }
   section.finish();
   return load;

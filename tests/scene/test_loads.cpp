@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 using namespace talus;
@@ -204,6 +205,24 @@ TEST_CASE("surface loads find their class and keep traction and pressure apart",
   CHECK(scene.surfaces[base.surface_class].surface == "base");
   CHECK(base.traction[1](1, {}) == 7);
   CHECK(base.pressure(1, {}) == 1);
+}
+
+TEST_CASE("a load on a surface whose tables have other places is warned of", "[scene]") {
+  const auto warnings = [](const char* load) {
+    return sample::read(good_with(fmt::format(R"("surface_loads": [{{"body": "block", {}}}])", load)))
+        .warnings;
+  };
+  const auto idle = warnings(R"("surface": "side", "pressure": {"scale": 3, "y": [[-30, 1], [-10, 0]]})");
+  REQUIRE(idle.size() == 1);
+  CHECK(idle[0] ==
+        "/surface_loads/0/pressure: the tables over place are 0 all along that surface of 'block', which "
+        "reaches from (1, 1) to (2, 2) m");
+  CHECK(warnings(R"("surface": "base", "traction": [0, {"scale": 3, "x": [[-30, 1], [1, 0]]}])").size() == 1);
+  for (const char* acts : {R"("surface": "side", "pressure": {"scale": 3, "y": [[-30, 1], [1.5, 0]]})",
+                           R"("surface": "base", "pressure": {"x": [[1.2, 0], [1.5, 1], [1.8, 0]]})",
+                           R"("surface": "base", "traction": [0, 3])",
+                           R"("surface": "base", "pressure": {"scale": 3, "time": [[7, 0], [8, 1]]})"})
+    CHECK(warnings(acts).empty());
 }
 
 TEST_CASE("absorbing surfaces find their class", "[scene]") {
