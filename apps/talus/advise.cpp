@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace talus {
@@ -62,6 +63,18 @@ Usage usage_of_advise() {
   return usage;
 }
 
+namespace {
+
+/// To the last digit of what was measured; one may be cheaper than another by the noise of clocks alone.
+bool are_one_run(const Study& study) {
+  return study.findings.reference_is_one_of_many &&
+         std::ranges::all_of(study.runs, [](const StudyRun& run) { return run.end == "finished"; }) &&
+         std::ranges::all_of(study.findings.runs,
+                             [](const StudyFinding& found) { return found.error.value_or(0) == 0; });
+}
+
+}  // namespace
+
 int advise_command(const Words& words) {
   const Usage usage = usage_of_advise();
   const auto given = read_arguments(usage, words);
@@ -79,6 +92,12 @@ int advise_command(const Words& words) {
   fmt::print("{}\n", study_table(plan, study.runs, study.findings));
   if (study.findings.reference_is_one_of_many)
     print_warning(fmt::format("errors are measured from {}", words_of_reference(plan, study.findings)));
+  if (are_one_run(study)) {
+    fmt::print(
+        "nothing to choose: all runs are the same, for what is varied changes nothing in this scene{}\n",
+        given->count("vary") == 0 ? "; its step is not held by /time/safety, so --vary something else" : "");
+    return exit_code::ok;
+  }
   const auto best = cheapest_within(study.findings, study.runs, error);
   if (!best) {
     fmt::print("no run keeps {:.3g} %: vary more, or take finer values\n", 100 * error);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -298,6 +299,7 @@ class Reduction {
     };
     double least = std::numeric_limits<double>::infinity();
     bool goes_on = false;
+    std::vector<std::size_t> beside;  // come as far, but slow down at present: part of what fails
     for (std::size_t i = 0; i < pieces_->all().size(); ++i) {
       const std::size_t body = pieces_->all()[i].body;
       if (end.moved[i] > result.displacement) {
@@ -310,9 +312,15 @@ class Reduction {
       if (course != Course::goes_on) continue;
       const double to_tell = pieces_->times_to_tell(i, end);
       least = std::min(least, to_tell);
+      if (to_tell <= 1) add(beside, body);
       if (to_tell < last_look * longer) add(result.moving_little, body);
     }
     result.collapsed = !result.moving.empty();
+    if (result.collapsed) {
+      const auto failing = result.moving;
+      result.moving.clear();
+      std::ranges::set_union(failing, beside, std::back_inserter(result.moving));
+    }
     result.stands_again = result.collapsed && !goes_on;
     return least;
   }

@@ -111,6 +111,10 @@ TEST_CASE("advise proposes a line of --set that keeps the error", "[apps][study]
       scratch.folder(), {"advise", "small.json", "--error", "50%", "--quiet", "--overwrite", "--vary",
                          "/interfaces/0/friction_angle=10,20", "--set", "/time/dt=1e-4"});
   CHECK_THAT(equals.err, Contains("first of several that did the most work"));
+  const Call alike = call_talus(scratch.folder(), {"advise", "small.json", "--error", "5%", "--quiet",
+                                                   "--vary", "/title=a,b", "--out", "alike"});
+  CHECK(alike.code == 0);
+  CHECK_THAT(alike.out, Contains("nothing to choose: all runs are the same") && !Contains("take --set"));
   CHECK(call_talus(scratch.folder(), {"advise", "small.json"}).code == 2);
   CHECK(call_talus(scratch.folder(), {"advise", "small.json", "--error", "x"}).code == 2);
 }
