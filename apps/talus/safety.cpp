@@ -105,6 +105,11 @@ void warn_of_run(const Scene& scene, const Safety& safety) {
   for (const std::string& warning : safety.warnings) print_warning(warning);
   if (!safety.stands) return;
   const ReducedRun& stood = run_at(safety, *safety.stands);
+  if (!stood.came_to_rest.empty())
+    print_warning(fmt::format(
+        "at {:.4g} these stand only after they moved by a hundredth of their width or more: where "
+        "they met something that stops them, what they slide on bears less than the factor says: {}",
+        stood.factor, listed(names_of(scene, stood.came_to_rest))));
   if (stood.moving_little.empty()) return;
   print_warning(
       fmt::format("at {:.4g} still moving after {:.4g} s, too slowly to call it a collapse: {}; "

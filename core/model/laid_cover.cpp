@@ -182,6 +182,13 @@ std::string fault_of(const LaidCover& cover, const GivenShape& given) {
     const auto known = [&](std::uint32_t patch) { return patch < cover.patches.size(); };
     if (!known(one.patch) || !std::all_of(one.to.begin(), one.to.end(), known))
       return "it steadies a patch that does not exist";
+    const double sum = one.weights[0] + one.weights[1] + one.weights[2];
+    if (!(std::abs(sum - 1) <= 1e-9))
+      return fmt::format("patch {} is to follow others with weights of {:.12g} in all, not 1", one.patch,
+                         sum);
+    if (!(one.inertia_area > 0))
+      return fmt::format("patch {} is to get the inertia of {:.6g} m2, which takes more than 0", one.patch,
+                         one.inertia_area);
     is_steadied[one.patch] = 1;
   }
   for (const LaidCover::Steadied& one : cover.steadied) {

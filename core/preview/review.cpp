@@ -84,6 +84,23 @@ void review_output(const Scene& scene, double dt, std::vector<std::string>& rais
   }
 }
 
+/// A record that begins when the run has ended, or in other units of time, never acts.
+void review_loads(const Scene& scene, std::vector<std::string>& raised) {
+  const auto look = [&](const Function& function, const std::string& pointer) {
+    if (function.zero() || !function.zero_during(0, scene.time.end)) return;
+    raised.push_back(fmt::format("{} is 0 until /time/end, {:.4g} s", pointer, scene.time.end));
+  };
+  for (const Function& along : scene.base_acceleration) look(along, "/base_acceleration");
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    for (const Function& along : scene.loads[i].force) look(along, fmt::format("/loads/{}/force", i));
+  }
+  for (std::size_t i = 0; i < scene.surface_loads.size(); ++i) {
+    const SurfaceLoad& load = scene.surface_loads[i];
+    for (const Function& along : load.traction) look(along, fmt::format("/surface_loads/{}/traction", i));
+    look(load.pressure, fmt::format("/surface_loads/{}/pressure", i));
+  }
+}
+
 /// A body at the top of its flight is slow, and nothing but gravity accelerates it.
 void review_sleep(const Scene& scene, std::vector<std::string>& raised) {
   const double pull = std::hypot(scene.gravity.x, scene.gravity.y);
@@ -134,6 +151,7 @@ std::vector<std::string> review(const Scene& scene, double dt) {
   review_gravity(scene, raised);
   review_hold(scene, raised);
   review_output(scene, dt, raised);
+  review_loads(scene, raised);
   review_sleep(scene, raised);
   review_use(scene, raised);
   question_units(scene, raised);

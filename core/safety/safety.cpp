@@ -20,6 +20,7 @@ constexpr double stride = 1.25;  ///< of the factor, while neither bound is know
 constexpr int longest = 8;       ///< times as long as the scene says a run goes on to be told
 /// A body that goes on so slowly that a run would have to be so many times as long once more is named.
 constexpr double last_look = 4;
+constexpr double jammed = 0.01;  ///< of its width: what comes so far and rests has met something
 
 /// Divides what of these values is strength; returns whether any is.
 bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std::vector<double>& values) {
@@ -294,6 +295,7 @@ class Reduction {
   /// Returns how many times as long it would have to last to tell of the body that goes on fastest.
   double judge(const PieceMotions& middle, const PieceMotions& end, double longer, ReducedRun& result) const {
     result.moving_little.clear();
+    result.came_to_rest.clear();
     const auto add = [](std::vector<std::size_t>& bodies, std::size_t body) {
       if (bodies.empty() || bodies.back() != body) bodies.push_back(body);
     };
@@ -307,6 +309,8 @@ class Reduction {
         result.body = body;
       }
       const Course course = pieces_->course(i, middle, end);
+      if (course == Course::rests && end.moved[i] > jammed * pieces_->all()[i].width)
+        add(result.came_to_rest, body);
       if (course == Course::failed || course == Course::stopped) add(result.moving, body);
       goes_on = goes_on || course == Course::failed;
       if (course != Course::goes_on) continue;

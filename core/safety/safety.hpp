@@ -34,6 +34,7 @@ struct ReducedRun {
   std::vector<std::size_t> moving;         ///< bodies that failed, where it collapsed
   bool stands_again = false;               ///< all of these have come to rest
   std::vector<std::size_t> moving_little;  ///< bodies that move on too slowly to tell
+  std::vector<std::size_t> came_to_rest;   ///< bodies that stand, but only after a hundredth of their width
   std::string trouble;                     ///< what stopped it, if anything did
   std::vector<MovedPart> parts;            ///< of all bodies, where it collapsed of itself
 };

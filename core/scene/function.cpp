@@ -126,6 +126,11 @@ bool Function::zero_within(Vec2 low, Vec2 high) const {
   });
 }
 
+bool Function::zero_during(double from, double to) const {
+  return std::ranges::all_of(
+      terms, [&](const Product& term) { return term.time && term.time->zero_within(from, to); });
+}
+
 double Function::last_change() const {
   double last = -std::numeric_limits<double>::infinity();
   for (const Product& product : terms) {

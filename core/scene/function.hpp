@@ -67,11 +67,12 @@ struct Function {
   double over(const StepSpan& span, Vec2 at) const;  ///< see Table::over()
   /// ∫ over time from 0 to `time`, exact for the pieces of the tables.
   double integral(double time, Vec2 at) const;
-  Function frozen(double time) const;           ///< what it is then, at any time
-  Function integrated(double time) const;       ///< its integral from 0 to then, at any time
-  Function held_from(double time) const;        ///< from then on what it is then
-  bool zero_within(Vec2 low, Vec2 high) const;  ///< of a box of positions, at any time
-  double last_change() const;                   ///< s, from when on it is constant; −∞ where it always is
+  Function frozen(double time) const;              ///< what it is then, at any time
+  Function integrated(double time) const;          ///< its integral from 0 to then, at any time
+  Function held_from(double time) const;           ///< from then on what it is then
+  bool zero_within(Vec2 low, Vec2 high) const;     ///< of a box of positions, at any time
+  bool zero_during(double from, double to) const;  ///< anywhere, s
+  double last_change() const;  ///< s, from when on it is constant; −∞ where it always is
   bool zero() const { return terms.empty(); }
   bool operator==(const Function&) const = default;
   bool varies_in_time() const {

@@ -107,7 +107,7 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
 std::optional<std::array<Vec2, 2>> extent_of(const SceneBody& body, std::uint32_t surface_class) {
   std::optional<std::array<Vec2, 2>> extent;
   const auto take = [&](const Loop& loop) {
-    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {  // none of a body with mistakes
       if (loop.surface_class[i] != surface_class) continue;
       for (const Vec2 end : {loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()]}) {
         if (!extent) extent = {end, end};
@@ -130,10 +130,13 @@ void warn_of_idle_tables(Reading& reading, const Section& section, const Surface
   if (function.zero() || !extent) return;
   const auto [low, high] = *extent;
   if (!function.zero_within(low, high)) return;
-  reading.scene.warnings.push_back(fmt::format(
+  std::string warning = fmt::format(
       "{}: the tables over place are 0 all along that surface of '{}', which reaches from ({:.6g}, "
       "{:.6g}) to ({:.6g}, {:.6g}) m",
-      section.pointer_to(key), body.name, low.x, low.y, high.x, high.y));
+      section.pointer_to(key), body.name, low.x, low.y, high.x, high.y);
+  std::vector<std::string>& warnings = reading.scene.warnings;
+  if (warnings.empty() || warnings.back() != warning)
+    warnings.push_back(std::move(warning));  // once for x, y
 }
 
 SurfaceLoad read_surface_load(Reading& reading, Section& section) {

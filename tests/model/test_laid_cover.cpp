@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 using namespace talus;
@@ -32,7 +33,9 @@ enum class Flaw {
   unknown_element,
   unknown_side,
   steadies_nothing,
-  steadies_itself
+  steadies_itself,
+  steadies_by_nothing,
+  steadies_lightly
 };
 
 Flaw flaw = Flaw::none;  // a builder has no other way to be told
@@ -55,6 +58,12 @@ class FlawedCover final : public CoverBuilder {
       const std::uint32_t to[] = {0, 3, 2};
       const double weights[] = {0, 1, 0};
       sink.steady_patch(3, to, weights, 1);
+    }
+    if (flaw == Flaw::steadies_by_nothing || flaw == Flaw::steadies_lightly) {
+      const bool lightly = flaw == Flaw::steadies_lightly;
+      const std::uint32_t to[] = {0, 1, 2};
+      const double weights[] = {lightly ? 1 : std::numeric_limits<double>::quiet_NaN(), 0, 0};
+      sink.steady_patch(3, to, weights, lightly ? -0.5 : 1);
     }
     if (flaw == Flaw::no_boundary) return;
     const std::uint32_t corners = flaw == Flaw::short_loop                ? 2
@@ -121,20 +130,23 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
   const struct {
     Flaw flaw;
     const char* words;
-  } faults[] = {{Flaw::empty, "it made no element"},
-                {Flaw::unknown_patch, "an element names patch 9 of 4"},
-                {Flaw::half_the_area, "its elements have an area of 0.5 m2, the body has 1 m2"},
-                {Flaw::no_boundary, "it has several elements and gave no boundary"},
-                {Flaw::boundary_elsewhere,
-                 "its boundary at (9.5, -0.5) m from the centroid is 10 m off side 0, which it is to follow"},
-                {Flaw::boundary_reversed, "its boundary surrounds -1 m2, the body has 1 m2"},
-                {Flaw::boundary_without_corner,
-                 "its boundary at (0.5, 0.5) m from the centroid is 1 m off side 2, which it is to follow"},
-                {Flaw::short_loop, "a loop of its boundary has 2 vertices"},
-                {Flaw::unknown_element, "a boundary vertex names element 2 of 2 and side 0 of 4"},
-                {Flaw::unknown_side, "a boundary vertex names element 0 of 2 and side 4 of 4"},
-                {Flaw::steadies_nothing, "it steadies a patch that does not exist"},
-                {Flaw::steadies_itself, "patch 3 is to follow patch 3, which is steadied itself"}};
+  } faults[] = {
+      {Flaw::empty, "it made no element"},
+      {Flaw::unknown_patch, "an element names patch 9 of 4"},
+      {Flaw::half_the_area, "its elements have an area of 0.5 m2, the body has 1 m2"},
+      {Flaw::no_boundary, "it has several elements and gave no boundary"},
+      {Flaw::boundary_elsewhere,
+       "its boundary at (9.5, -0.5) m from the centroid is 10 m off side 0, which it is to follow"},
+      {Flaw::boundary_reversed, "its boundary surrounds -1 m2, the body has 1 m2"},
+      {Flaw::boundary_without_corner,
+       "its boundary at (0.5, 0.5) m from the centroid is 1 m off side 2, which it is to follow"},
+      {Flaw::short_loop, "a loop of its boundary has 2 vertices"},
+      {Flaw::unknown_element, "a boundary vertex names element 2 of 2 and side 0 of 4"},
+      {Flaw::unknown_side, "a boundary vertex names element 0 of 2 and side 4 of 4"},
+      {Flaw::steadies_nothing, "it steadies a patch that does not exist"},
+      {Flaw::steadies_itself, "patch 3 is to follow patch 3, which is steadied itself"},
+      {Flaw::steadies_by_nothing, "patch 3 is to follow others with weights of nan in all, not 1"},
+      {Flaw::steadies_lightly, "patch 3 is to get the inertia of -0.5 m2, which takes more than 0"}};
   for (const auto& fault : faults) {
     CHECK_THAT(refusal_with<PluginError>(fault.flaw),
                Contains("/plugins/libflawed.so: cover 'flawed' does not fit body 'square': ") &&

@@ -210,6 +210,19 @@ TEST_CASE("A reviewer asks about intervals that do not fit", "[preview]") {
   CHECK(warned(text, "less than one interval of /output/frames"));
 }
 
+TEST_CASE("A reviewer asks about loads that begin when the run has ended", "[preview]") {
+  WorkingScene text = resting();
+  const auto with = [&](const char* first) {
+    text.rest = fmt::format(R"("base_acceleration": [{{"time": [[0, 0], [{0}, 0], [9, 1]]}}, 0],
+      "loads": [{{"body": "top", "point": [1, 2.5], "force": [0, {{"time": [[0, 0], [{0}, 0], [9, 1]]}}]}}],)",
+                            first);
+    return text;
+  };
+  CHECK(warned(with("5"), "/base_acceleration is 0 until /time/end, 0.1 s"));
+  CHECK(warned(with("5"), "/loads/0/force is 0 until /time/end, 0.1 s"));
+  CHECK_FALSE(warned(with("0.05"), "is 0 until"));
+}
+
 TEST_CASE("A reviewer asks about bodies put to sleep in the air", "[preview]") {
   WorkingScene text = resting();
   text.rest += R"("sleep": {"acceleration": 20},)";

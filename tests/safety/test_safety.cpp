@@ -81,27 +81,43 @@ TEST_CASE("Two wedges have the factor of limit equilibrium", "[safety][slow_sani
   CHECK(factor_of(scene) == Approx(due).epsilon(0.01));
 }
 
-TEST_CASE("What slid and came to rest further down has failed", "[safety]") {
-  // 35° with friction of 25°: the block slides half a metre into a buttress, long before the end.
+namespace {
+
+/// 35° with friction of 25°: a block that slides into a buttress as far down the slope, in its widths.
+Scene above_buttress(double gap) {
+  const double c = std::cos(35 * degree), s = std::sin(35 * degree), t = s / c, near = 1 + gap, far = 2 + gap;
+  const auto point = [](double x, double y) { return fmt::format("[{}, {}]", x, y); };
+  const auto box_on_slope = [&](const char* name, double from, double to, const char* more) {
+    return fmt::format(R"({{"name": "{}", "polygon": [{}, {}, {}, {}], "material": "rock"{}}})", name,
+                       point(from * c, -from * s), point(to * c, -to * s), point(to * c + s, -to * s + c),
+                       point(from * c + s, -from * s + c), more);
+  };
   const std::string bodies = fmt::format(
-      R"({{"name": "base", "polygon": [[-4, -5], [6, -5], [6, {0}], [-4, {1}]], "material": "rock", "fixed": true}},
-         {{"name": "a", "polygon": [[0, 0], [{2}, {3}], [{4}, {5}], [{6}, {7}]], "material": "rock"}},
-         {{"name": "buttress", "polygon": [[{8}, {9}], [{10}, {11}], [{12}, {13}], [{14}, {15}]], "material": "rock",
-           "fixed": true}})",
-      -6 * std::tan(35 * degree), 4 * std::tan(35 * degree), std::cos(35 * degree), -std::sin(35 * degree),
-      std::cos(35 * degree) + std::sin(35 * degree), -std::sin(35 * degree) + std::cos(35 * degree),
-      std::sin(35 * degree), std::cos(35 * degree), 1.5 * std::cos(35 * degree), -1.5 * std::sin(35 * degree),
-      2.5 * std::cos(35 * degree), -2.5 * std::sin(35 * degree),
-      2.5 * std::cos(35 * degree) + std::sin(35 * degree),
-      -2.5 * std::sin(35 * degree) + std::cos(35 * degree),
-      1.5 * std::cos(35 * degree) + std::sin(35 * degree),
-      -1.5 * std::sin(35 * degree) + std::cos(35 * degree));
-  Scene scene = from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 25, "", bodies));
+      R"({{"name": "base", "polygon": [[-4, -5], [6, -5], {}, {}], "material": "rock", "fixed": true}}, {}, {})",
+      point(6, -6 * t), point(-4, 4 * t), box_on_slope("a", 0, 1, ""),
+      box_on_slope("buttress", near, far, R"(, "fixed": true)"));
+  return from_text(fmt::format(fmt::runtime(rock_scene), "overlap_area", 25, "", bodies));
+}
+
+}  // namespace
+
+TEST_CASE("What slid and came to rest further down has failed", "[safety]") {
+  Scene scene = above_buttress(0.5);  // long before the end
   scene.time.end = 3;
   CHECK(factor_of(scene) == Approx(std::tan(25 * degree) / std::tan(35 * degree)).epsilon(0.02));
   const Safety safety = factor_of_safety(scene, {});
   CHECK(std::ranges::any_of(safety.runs, &ReducedRun::stands_again));
   for (const ReducedRun& run : safety.runs) CHECK((run.collapsed || !run.stands_again));
+}
+
+TEST_CASE("What stands after a way of its own is told of", "[safety]") {
+  const Safety safety = factor_of_safety(above_buttress(0.02), {.highest = 1.1});
+  REQUIRE(safety.runs.size() == 1);
+  CHECK_FALSE(safety.runs[0].collapsed);
+  CHECK(safety.runs[0].came_to_rest == std::vector<std::size_t>{1});
+  const Safety leaning = factor_of_safety(above_buttress(0), {.highest = 1.1});
+  REQUIRE(leaning.runs.size() == 1);
+  CHECK(leaning.runs[0].came_to_rest.empty());
 }
 
 TEST_CASE("What cannot stand, and what stands whatever is taken, are told apart", "[safety]") {

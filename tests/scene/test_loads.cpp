@@ -218,11 +218,21 @@ TEST_CASE("a load on a surface whose tables have other places is warned of", "[s
         "/surface_loads/0/pressure: the tables over place are 0 all along that surface of 'block', which "
         "reaches from (1, 1) to (2, 2) m");
   CHECK(warnings(R"("surface": "base", "traction": [0, {"scale": 3, "x": [[-30, 1], [1, 0]]}])").size() == 1);
+  CHECK(warnings(R"("surface": "base", "traction": [{"x": [[-30, 1], [1, 0]]}, {"x": [[3, 0], [4, 1]]}])")
+            .size() == 1);
   for (const char* acts : {R"("surface": "side", "pressure": {"scale": 3, "y": [[-30, 1], [1.5, 0]]})",
                            R"("surface": "base", "pressure": {"x": [[1.2, 0], [1.5, 1], [1.8, 0]]})",
                            R"("surface": "base", "traction": [0, 3])",
                            R"("surface": "base", "pressure": {"scale": 3, "time": [[7, 0], [8, 1]]})"})
     CHECK(warnings(acts).empty());
+}
+
+TEST_CASE("of a body with mistakes no load on a surface is warned of", "[scene]") {
+  std::string text = good_with(
+      R"("surface_loads": [{"body": "block", "surface": "side", "pressure": {"scale": 3, "y": [[-30, 1], [-10, 0]]}}])");
+  for (const std::string material = "\"material\": \"rock\""; text.find(material) != std::string::npos;)
+    text.replace(text.find(material), material.size(), "\"material\": \"rok\"");
+  for (const Mistake& mistake : sample::mistakes(text)) CHECK(mistake.pointer.ends_with("/material"));
 }
 
 TEST_CASE("absorbing surfaces find their class", "[scene]") {
