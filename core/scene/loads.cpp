@@ -107,7 +107,7 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
 std::optional<std::array<Vec2, 2>> extent_of(const SceneBody& body, std::uint32_t surface_class) {
   std::optional<std::array<Vec2, 2>> extent;
   const auto take = [&](const Loop& loop) {
-    for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {  // none of a body with mistakes
+    for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {  // none in a scene without materials
       if (loop.surface_class[i] != surface_class) continue;
       for (const Vec2 end : {loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()]}) {
         if (!extent) extent = {end, end};
