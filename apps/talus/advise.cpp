@@ -43,6 +43,14 @@ StudyPlan steps_of(const Usage& usage, const po::variables_map& given, const Sce
   return grid({variation});
 }
 
+/// To the last digit of what was measured; one may be cheaper than another by the noise of clocks alone.
+bool are_one_run(const Study& study) {
+  return study.findings.reference_is_one_of_many &&
+         std::ranges::all_of(study.runs, [](const StudyRun& run) { return run.end == "finished"; }) &&
+         std::ranges::all_of(study.findings.runs,
+                             [](const StudyFinding& found) { return found.error.value_or(0) == 0; });
+}
+
 }  // namespace
 
 Usage usage_of_advise() {
@@ -62,18 +70,6 @@ Usage usage_of_advise() {
   add_study_options(usage);
   return usage;
 }
-
-namespace {
-
-/// To the last digit of what was measured; one may be cheaper than another by the noise of clocks alone.
-bool are_one_run(const Study& study) {
-  return study.findings.reference_is_one_of_many &&
-         std::ranges::all_of(study.runs, [](const StudyRun& run) { return run.end == "finished"; }) &&
-         std::ranges::all_of(study.findings.runs,
-                             [](const StudyFinding& found) { return found.error.value_or(0) == 0; });
-}
-
-}  // namespace
 
 int advise_command(const Words& words) {
   const Usage usage = usage_of_advise();

@@ -142,7 +142,7 @@ void warn_of_scene(const Scene& scene) {
     print_warning(
         "loads or a motion of the ground vary in time: a body that they move on for a while and that comes "
         "to rest has failed once it has come a twentieth of its width; how far it comes is for `talus run`. "
-        "Runs that go on past /time/end keep the loads that they have then");
+        "Runs that go on past /time/end keep the loads that they have then; a motion of the ground goes on");
   if (!moving.empty()) print_warning(fmt::format("velocities at the start are left out: {}", listed(moving)));
   if (!driven.empty())
     print_warning(

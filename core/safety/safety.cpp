@@ -279,7 +279,7 @@ class Reduction {
     const std::vector<Vec2> began = pieces_->places(simulation);
     // What follows a load that still grows goes on, too: whether it does without is seen after the end.
     int times = loads_change_late_ ? 2 : 1;
-    if (!advance(1 + times)) return false;  // t = 0 and half of the time
+    if (!advance(1 + times)) return false;  // t = 0 and half of the time, or all of it
     PieceMotions middle = pieces_->motions(simulation, began);
     for (;; times *= 2) {
       if (!advance(times)) return false;

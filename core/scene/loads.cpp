@@ -1,5 +1,6 @@
 #include "scene/loads.hpp"
 
+#include "geometry/box.hpp"
 #include "scene/components.hpp"
 #include "scene/tables.hpp"
 #include "scene/take_function.hpp"
@@ -7,9 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -103,32 +102,28 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
   return past;
 }
 
-/// The corners of the box around a surface of a body.
-std::optional<std::array<Vec2, 2>> extent_of(const SceneBody& body, std::uint32_t surface_class) {
-  std::optional<std::array<Vec2, 2>> extent;
+/// The ends of the edges of a surface. None in a scene without materials, which has no surfaces either.
+std::vector<Vec2> ends_of(const SceneBody& body, std::uint32_t surface_class) {
+  std::vector<Vec2> ends;
   const auto take = [&](const Loop& loop) {
-    for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {  // none in a scene without materials
+    for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {
       if (loop.surface_class[i] != surface_class) continue;
-      for (const Vec2 end : {loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()]}) {
-        if (!extent) extent = {end, end};
-        auto& [low, high] = *extent;
-        low = {std::min(low.x, end.x), std::min(low.y, end.y)};
-        high = {std::max(high.x, end.x), std::max(high.y, end.y)};
-      }
+      ends.push_back(loop.vertices[i]);
+      ends.push_back(loop.vertices[(i + 1) % loop.vertices.size()]);
     }
   };
   take(body.outer);
   std::ranges::for_each(body.holes, take);
-  return extent;
+  return ends;
 }
 
 /// Tables over place are in the scene's coordinates: those from a drawing of its own miss the surface.
 void warn_of_idle_tables(Reading& reading, const Section& section, const SurfaceLoad& load, const char* key,
                          const Function& function) {
   const SceneBody& body = reading.scene.bodies[load.body];
-  const auto extent = extent_of(body, load.surface_class);
-  if (function.zero() || !extent) return;
-  const auto [low, high] = *extent;
+  const std::vector<Vec2> ends = ends_of(body, load.surface_class);
+  if (function.zero() || ends.empty()) return;
+  const auto [low, high] = box_around(ends);
   if (!function.zero_within(low, high)) return;
   std::string warning = fmt::format(
       "{}: the tables over place are 0 all along that surface of '{}', which reaches from ({:.6g}, "
