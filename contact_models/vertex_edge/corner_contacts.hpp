@@ -19,10 +19,14 @@ struct CornerContact {
   double depth;               ///< m, behind the side; negative across an intact bond
   double lever;               ///< foot of the vertex along the side, 0 to 1 on it
   double tributary;           ///< m, length of boundary whose load the vertex carries
+  double in_corner;           ///< m, that length where it shares a reflex corner
   double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
-  double share;               ///< 0.5 where two corners meet and each stands on the other's edge, else 1
+  double share;               ///< of its spring: half where two corners meet on each other's edges, see also
+                              ///< `share_in_corner`; else 1
+  bool meets_corner;          ///< two corners meet, and each stands on the other's edge
   bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
   bool stands;                ///< on this side, not only on others that the same vertex was found at
+  Point before, after;        ///< tangents of the edges that meet in the vertex
 };
 
 /// Whether an edge is no more than a corner cut off, or rounding, between two others.
@@ -45,6 +49,9 @@ inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along
   if (is_short(own, before) != is_short(own, v)) return is_short(own, v) ? before : v;
   return dot(own.tangent(before), along) < dot(own.tangent(v), along) ? before : v;
 }
+
+/// Share of its edges by which a corner may stand past the end of an edge and still be carried by it.
+inline constexpr double flush = 0.01;
 
 /// How far above a side a vertex still stands on it, m: held by a bond, and with what a step may have torn
 /// that off, so that it is seen to break.
@@ -74,21 +81,21 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 1, false, true}, found);
+              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, vertex->before, vertex->after},
+              found);
       }
     }
     leave_to_ends(geometry, found, first);
     for (std::size_t i = first; i < found.size(); ++i) {
       for (std::size_t j = i + 1; j < found.size(); ++j) {
-        if (mutual(geometry, found[i], found[j])) found[i].share = found[j].share = 0.5;
+        if (!mutual(geometry, found[i], found[j])) continue;
+        found[i].share = found[j].share = 0.5;
+        found[i].meets_corner = found[j].meets_corner = true;
       }
     }
   }
 
  private:
-  /// Share of its edges by which a corner may stand past the end of an edge and still be carried by it.
-  static constexpr double flush = 0.01;
-
   /// A body of many elements bends at every corner, and each side brings both of its ends.
   static std::optional<Vertex> end_of_strip(const Piece& own, std::uint32_t v) {
     if (v >= 2 || !own.real(0)) return std::nullopt;

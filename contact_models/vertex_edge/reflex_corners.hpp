@@ -23,6 +23,63 @@ inline bool in_reflex_corner(std::span<const PiecePairGeometry> pieces, const Co
   return leads(pieces, p, q) || leads(pieces, q, p);
 }
 
+/// m, how far a vertex is past that end of its side where the boundary leads on to another, or from it.
+inline double past_end(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
+                       bool leads_on) {
+  const Piece& side_of = pieces[contact.entry].piece[1 - contact.vertex_body];
+  return side_of.length(contact.side) * (leads_on ? contact.lever - 1 : -contact.lever);
+}
+
+/// How flat an edge lies on a side, cos 2β of the angle between them; 0 from 45° on.
+inline double flatness(Point edge, Point side) {
+  const double cosine = -dot(edge, side);
+  return cosine > 0 ? std::max(0.0, 2 * cosine * cosine - 1) : 0;
+}
+
+/// How much of its spring a vertex has on one face of a reflex corner, and what part of that on its own
+/// length.
+struct CornerShare {
+  double all = 1, own = 1;
+};
+
+/// On the one face, `p`, beside the other, `q`. A vertex is held by the nearest point of the boundary, with
+/// ½ k d² at d from that: of the face in front of which it is or, in the wedge between their normals, of the
+/// corner. There d = a_p n_p + a_q n_q, and a_p is how far the vertex is past the end of q, over the sine of
+/// the turn. As far as an edge of its own lies flat on each face, and in a right or an acute angle, it stands
+/// on both.
+inline CornerShare share_in_corner(std::span<const PiecePairGeometry> pieces, const CornerContact& p,
+                                   const CornerContact& q) {
+  const bool leads_on = leads(pieces, p, q);
+  if (!(leads_on || leads(pieces, q, p)) || !(p.depth > 0 && q.depth > 0)) return {};
+  const Point along_p = pieces[p.entry].piece[1 - p.vertex_body].tangent(p.side),
+              along_q = pieces[q.entry].piece[1 - q.vertex_body].tangent(q.side);
+  if (!(dot(along_p, along_q) > 0)) return {};
+  const double past_q = past_end(pieces, q, !leads_on);
+  const double nearest = std::clamp(past_q / (std::abs(cross(along_p, along_q)) * p.depth), 0.0, 1.0);
+  const double beside = std::max(flush * q.tributary, q.depth);
+  const double both = flatness(p.after, leads_on ? along_p : along_q) *
+                      flatness(p.before, leads_on ? along_q : along_p) *
+                      std::clamp(2 + past_q / beside, 0.0, 1.0);
+  const double all = both + (1 - both) * nearest;
+  return {all, nearest < 1 && all > 0 ? both / all : 1};
+}
+
+/// Of a vertex that is found on both faces of a reflex corner. What the corner holds goes by the longer of
+/// the stretches that its edge faces of the two.
+inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
+  for (CornerContact& contact : found) {
+    contact.in_corner = contact.tributary;
+    for (const CornerContact& other : found) {
+      if (other.key != contact.key || &other == &contact) continue;
+      const CornerShare share = share_in_corner(pieces, contact, other);
+      contact.share *= share.all;
+      contact.in_corner += (1 - share.own) * std::max(0.0, other.tributary - contact.tributary);
+    }
+  }
+  std::erase_if(found, [](const CornerContact& contact) { return contact.share == 0; });
+  for (CornerContact& contact : found) contact.tributary = contact.in_corner;
+}
+
 /// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
 inline bool is_nearer(const CornerContact& contact, const CornerContact& other) {
   const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
@@ -56,6 +113,7 @@ inline void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector
   std::erase_if(found, [&](const CornerContact& contact) {
     return contact.past_cut && !stands_past_cut(pieces, contact, found);
   });
+  share_corners(pieces, found);
   for (auto contact = found.begin(); contact != found.end(); ++contact) {
     const auto nearest = std::find_if(found.begin(), contact, [&](const CornerContact& other) {
       return other.stands && other.key == contact->key;

@@ -212,8 +212,8 @@ class VertexEdge final : public ContactModel {
     return find_old(work.old, contact.key);
   }
 
-  /// The history of a contact: its own, on whichever side that was, or that of the corner it meets (the two
-  /// share one spring), or a new one.
+  /// The history of a contact: its own, on whichever side that was, or that of the corner it meets or of its
+  /// other face in a reflex corner (the two share one spring), or a new one.
   static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
     const double side = side_of(contact, work);
     if (const SpringHistory* old = find_own(contact, side, work)) {
@@ -224,9 +224,15 @@ class VertexEdge final : public ContactModel {
     // A vertex that is bonded to one face of a corner is not to the other across a gap.
     const bool bonds = batch.bonds_form && contact.depth > -1e-9 * contact.tributary;
     SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0};
-    if (contact.share == 1 || work.pieces[contact.entry].piece[0].is_strip()) return history;
+    if (contact.share < 1 && !contact.meets_corner) {
+      if (const SpringHistory* old = find_old(work.old, contact.key)) {
+        history.elastic = old->elastic;
+        history.intact = old->intact;
+      }
+    }
+    if (!contact.meets_corner) return history;
     for (const CornerContact& other : work.found) {
-      if (other.share == 1 || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
+      if (!other.meets_corner || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
         continue;
       const Piece& own = work.pieces[contact.entry].piece[contact.vertex_body];
       const Piece& met = work.pieces[contact.entry].piece[1 - contact.vertex_body];

@@ -31,9 +31,11 @@ class Outline {
   double beyond(std::uint32_t side, bool forward) const {
     if (is_cut(side) || !(corners_[side].length > 0) || !is_cut(beside(side, forward))) return 0;
     double way = 0;
-    for (auto at = neighbour(side, forward); at && *at != side && goes_on(side, *at);
-         at = neighbour(*at, forward))
-      way += corners_[*at].length;
+    for (auto at = neighbour(side, forward); at && *at != side; at = neighbour(*at, forward)) {
+      const double share = forward ? goes_on(side, *at) : goes_on(*at, side);
+      if (!(share > 0)) break;
+      way += share * corners_[*at].length;
+    }
     return way;
   }
 
@@ -43,9 +45,14 @@ class Outline {
     return forward ? next_[side] : previous_[side];
   }
 
-  bool goes_on(std::uint32_t side, std::uint32_t other) const {
-    const BoundaryCorner &p = corners_[side], &q = corners_[other];
-    return p.tangent_x * q.tangent_x + p.tangent_y * q.tangent_y >= straight;
+  /// How much of a later side counts as straight on from an earlier: cos 2θ of one turned inwards by θ, for
+  /// what lies flat on the one spans the corner to the other.
+  double goes_on(std::uint32_t earlier, std::uint32_t later) const {
+    const BoundaryCorner &p = corners_[earlier], &q = corners_[later];
+    const double cosine = p.tangent_x * q.tangent_x + p.tangent_y * q.tangent_y;
+    if (cosine >= straight) return 1;
+    const bool inwards = p.tangent_x * q.tangent_y - p.tangent_y * q.tangent_x < 0;
+    return inwards && cosine > 0 ? 2 * cosine * cosine - 1 : 0;
   }
 
   /// The next side of the boundary in that direction.

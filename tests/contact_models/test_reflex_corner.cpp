@@ -169,3 +169,117 @@ TEST_CASE("reports count what a jump of the stiffness does", "[laws][output]") {
   CHECK(force.y == Approx(1e-3 * (1e8 + 1e7) / 2).epsilon(1e-6));
   CHECK(force.x == Approx(-(1e8 - 1e7) * 1e-6 / 2).epsilon(1e-3));
 }
+
+namespace {
+
+/// A round trough of 20 m with bends of a few degrees, from 45° to 45°.
+std::string trough(double bend) {
+  std::string polygon = "[-20, -23], [20, -23]";
+  const int facets = static_cast<int>(std::lround(90 / bend));
+  for (int i = facets; i >= 0; --i) {
+    const double angle = (i * bend - 45) * degree;
+    polygon += fmt::format(", [{}, {}]", 20 * std::sin(angle), -20 * std::cos(angle));
+  }
+  return fmt::format(R"({{"name": "trough", "material": "rock", "fixed": true, "polygon": [{}]}})", polygon);
+}
+
+/// A block of 2 × 1 m in it whose base stands on both of its ends, 25° to the left.
+std::string block_in_trough(double bend) {
+  const double c = std::cos(25 * degree), s = std::sin(25 * degree);
+  const double base = std::sqrt(20 * 20 - 1) - 1.02 * 20 * (1 - std::cos(bend / 2 * degree));
+  std::string polygon;
+  for (const auto& [along, up] : {std::pair(-1, 0), std::pair(1, 0), std::pair(1, 1), std::pair(-1, 1)}) {
+    const double from_centre = base - up;
+    polygon += fmt::format("{}[{}, {}]", polygon.empty() ? "" : ", ", along * c - from_centre * s,
+                           -along * s - from_centre * c);
+  }
+  return fmt::format(R"({{"name": "block", "material": "rock", "polygon": [{}]}})", polygon);
+}
+
+WorkingScene slide_in_trough(double bend) {
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.cover = "rigid";
+  text.gravity = "[0, -9.81]";
+  text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 0,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.bodies = trough(bend) + ", " + block_in_trough(bend);
+  text.time = R"({"end": 4})";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a block slides over the bends of a trough and neither gains nor loses by them",
+          "[laws][vertex_edge]") {
+  for (const double bend : {0.5, 2.0}) {
+    INFO(bend << " degrees");
+    const Simulation simulation = run_to_end(slide_in_trough(bend));
+    CHECK(std::abs(residual_share(simulation.ledger())) < 1e-3);
+    CHECK(simulation.ledger().contact_damping_loss < 0.03 * simulation.ledger().throughput);
+  }
+}
+
+TEST_CASE("a block that slides over bends is the same bits however candidates are sought",
+          "[laws][vertex_edge]") {
+  for (const double bend : {0.5, 2.0}) {
+    INFO(bend << " degrees");
+    const auto hash = [&](bool skin) {
+      Simulation simulation(slide_in_trough(bend).read(), {.neighbour_skin = skin});
+      while (simulation.advance()) {
+      }
+      return simulation.state_hash();
+    };
+    CHECK(hash(true) == hash(false));
+  }
+}
+
+TEST_CASE("a corner that comes to a slight bend is pushed by how deep it is, before it and past it",
+          "[laws][vertex_edge]") {
+  // It sinks by 5 mm/s and moves on by 1 m/s, to the bend in 0.2 s.
+  for (const double bend : {0.3, 1.0, 10.0}) {
+    const double rise = std::tan(bend * degree);
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 0, "friction_angle": 0,
+                        "normal_damping": 0, "tangential_damping": 0)";
+    text.bodies = fmt::format(R"({{"name": "below", "material": "rock", "fixed": true,
+            "polygon": [[-4, -2], [4, -2], [4, {}], [0, 0], [-4, 0]]}},
+         {{"name": "box", "material": "rock", "polygon": [[-1.2, 0], [-0.2, 0], [-0.2, 1], [-1.2, 1]],
+           "drive": {{"x": 1, "y": -0.005, "rotation": 0}}}})",
+                              4 * rise);
+    text.rest = R"("limits": {"penetration": 1, "energy_residual": 1e9},)";
+    text.time = R"({"end": 0.4, "dt": 5e-4})";
+    Simulation simulation(text.read(), {});
+    while (simulation.advance()) {
+      const double depth = 0.005 * simulation.time(), past = simulation.time() - 0.2;
+      // Both of its ends bear half a metre.
+      const double due = 5e8 * (depth + (past > 0 ? depth + past * rise : depth));
+      const double force = contact_sum(simulation.contacts(), 1, {}).force.y;
+      INFO(bend << " degrees, " << past << " m past the bend");
+      REQUIRE(force == Approx(due).epsilon(bend < 5 ? 0.02 : 0.08).margin(1e4));
+    }
+  }
+}
+
+TEST_CASE("corners of two blocks that meet in the reflex corner of a roof bear it as their faces do",
+          "[laws][vertex_edge]") {
+  for (const double incline : {5.0, 10.0, 20.0}) {
+    INFO("faces of " << incline << " degrees");
+    const double drop = std::tan(incline * degree);
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 0, "friction_angle": 0,
+                        "normal_damping": 0, "tangential_damping": 0)";
+    text.bodies = fmt::format(
+        R"({{"name": "left", "material": "rock", "fixed": true, "polygon": [[-1, -2], [0, -2], [0, 0], [-1, {0}]]}},
+           {{"name": "right", "material": "rock", "fixed": true, "polygon": [[0, -2], [1, -2], [1, {0}], [0, 0]]}},
+           {{"name": "roof", "material": "rock", "polygon": [[-1, {0}], [0, 0], [1, {0}], [1, 1], [-1, 1]],
+             "drive": {{"x": 0, "y": -0.1, "rotation": 0}}}})",
+        -drop);
+    text.time = R"({"end": 0.01, "dt": 1e-4})";
+    const ContactSum sum = contact_sum(run_to_end(text).contacts(), 2, {});
+    CHECK(sum.force.y == Approx(2e9 * 1e-3).epsilon(3e-3));
+    CHECK(std::abs(sum.force.x) < 1);
+  }
+}

@@ -31,8 +31,8 @@ struct Boundaries {
                               ///< the piece; the other sides are internal. Both ends of side 0 carry contact
   const double* clear_depth;  ///< [piece] m, so deep only sides that share a corner compete for a point
   /// [2 * corner] how far the boundary goes on straight past the cut at the start, and past that at the end,
-  /// of the side that starts there, as a share of its length: for the piece beyond may not be listed. 0 where
-  /// there is no cut; null where no body has any.
+  /// of the side that starts there, as a share of its length: for the piece beyond may not be listed. Of a
+  /// side that is turned inwards by θ < 45° cos 2θ counts. 0 where there is no cut; null where no body has any.
   const double* straight_beyond;
 };
 
