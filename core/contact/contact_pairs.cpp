@@ -113,8 +113,8 @@ void ContactStage::note_neighbours(const Model& model) {
   for (const Candidate& candidate : candidates_) {
     const std::uint32_t a = model.piece_body[candidate.piece_a], b = model.piece_body[candidate.piece_b];
     if (fixed_[a] != 0 || fixed_[b] != 0) continue;
-    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], model.bodies[b].contact_mass);
-    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], model.bodies[a].contact_mass);
+    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], mass_as_neighbour_[b]);
+    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], mass_as_neighbour_[a]);
   }
 }
 
@@ -146,15 +146,11 @@ void ContactStage::rebuild_pairs(const Model& model) {
     const std::uint32_t of_a = model.piece_body[piece_a], of_b = model.piece_body[piece_b];
     if (pairs_.empty() || pairs_.back().a != of_a || pairs_.back().b != of_b) {
       const Body &a = model.bodies[of_a], &b = model.bodies[of_b];
-      const double reduced_mass = fixed_[of_a] ? b.contact_mass
-                                  : fixed_[of_b]
-                                      ? a.contact_mass
-                                      : a.contact_mass * b.contact_mass / (a.contact_mass + b.contact_mass);
       BodyPair pair{};
       pair.a = of_a, pair.b = of_b;
       pair.master_halves = master_halves(of_a, of_b);
       pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
-      pair.reduced_mass = static_cast<float>(reduced_mass);
+      pair.reduced_mass = reduced_mass(of_a, of_b);
       pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back(pair);
     }

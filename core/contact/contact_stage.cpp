@@ -97,6 +97,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       corner_drift_(model.reference_x.size()),
       drift_(model.bodies.size()) {
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
+  set_supports(model, settings_of(scene).supports);
   if (scene.contact.component == nullptr) return;
   clear_depth_.reserve(model.piece_body.size());
   for (std::uint32_t p = 0; p < model.piece_body.size(); ++p) {
@@ -157,6 +158,32 @@ bool ContactStage::set_interfaces(const std::vector<std::vector<double>>& values
     if (one > 0 && other > 0 && one != other) return true;
   }
   return false;
+}
+
+void ContactStage::set_supports(const Model& model, std::span<const Support> supports) {
+  constexpr double unmoved = std::numeric_limits<double>::infinity();
+  const std::vector<double> former = std::move(mass_);
+  mass_.clear();
+  mass_as_neighbour_.clear();
+  for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    const bool held = model.moves_as_a_whole(i) && support_of(supports, i).all();
+    mass_.push_back(held || fixed_[i] ? unmoved : body.contact_mass);
+    // What is held by its centre has strain modes all the same.
+    mass_as_neighbour_.push_back(held && body.kinematics == Kinematics::rigid ? unmoved : body.contact_mass);
+  }
+  if (mass_ == former) return;
+  for (BodyPair& pair : pairs_) pair.reduced_mass = reduced_mass(pair.a, pair.b);
+  slack_ = -1;
+}
+
+/// m_a m_b/(m_a + m_b), of two that nothing moves anything.
+float ContactStage::reduced_mass(std::uint32_t a, std::uint32_t b) const {
+  const double of_a = mass_[a], of_b = mass_[b];
+  if (std::isinf(of_a) && std::isinf(of_b)) return 1;
+  if (std::isinf(of_a)) return static_cast<float>(of_b);
+  if (std::isinf(of_b)) return static_cast<float>(of_a);
+  return static_cast<float>(of_a * of_b / (of_a + of_b));
 }
 
 /// A fixed body is master; between moving bodies both roles count half, or a declared priority decides.

@@ -37,6 +37,10 @@ class ContactStage {
   /// interface that had some and still has are of another stiffness.
   bool set_interfaces(const std::vector<std::vector<double>>& values);
 
+  /// From now on: a body that moves as a whole and is held or driven in all of that meets others as a fixed
+  /// one does, whatever its mass.
+  void set_supports(const Model& model, std::span<const Support> supports);
+
   /// Seeks the candidates anew when something may have moved through the skin since the last search. The last
   /// call was `dt` ago, s, and bodies have moved at `speeds` since. True when who is near whom was found
   /// anew: at the same times whether a skin is used or not. Pieces that pairs list are shaped (see
@@ -94,6 +98,7 @@ class ContactStage {
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
+  float reduced_mass(std::uint32_t a, std::uint32_t b) const;
   void shape_all(const Model& model, MotionState& motion);
   void shape_listed(const Model& model, MotionState& motion);
   void list_to_shape(const Model& model);
@@ -181,6 +186,9 @@ class ContactStage {
   Interfaces interfaces_{};
   std::vector<double> priority_;  ///< [body], empty with symmetric roles
   std::vector<char> fixed_;       ///< [body]
+  /// [body] kg per metre of thickness, that dashpots meet and that the step of neighbours goes by; infinite
+  /// where nothing moves it.
+  std::vector<double> mass_, mass_as_neighbour_;
   /// [body] the surface class of one that is plain as BodyPair says it, or internal_side.
   std::vector<std::uint32_t> plain_surface_;
   std::vector<std::uint32_t> first_piece_;  ///< [body] as PiecePairs says it

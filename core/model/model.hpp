@@ -161,6 +161,8 @@ struct Model {
   double mean_width = 0;
 
   bool moves(std::uint32_t body) const { return bodies[body].kinematics != Kinematics::fixed; }
+  /// With one velocity and one rotation, and no other motion but uniform strain.
+  bool moves_as_a_whole(std::uint32_t body) const { return moves(body) && !covered(body); }
   bool covered(std::uint32_t body) const { return bodies[body].kinematics == Kinematics::covered; }
   /// Whether most moving bodies have many elements: then few bodies are much work.
   bool mostly_covered() const { return 2 * covered_bodies.size() > moving_bodies.size(); }

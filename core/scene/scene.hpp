@@ -47,6 +47,7 @@ struct Support {
   std::optional<double> rotation;  ///< rad/s
 
   bool any() const { return x || y || rotation; }
+  bool all() const { return x && y && rotation; }
   bool drives() const { return x.value_or(0) != 0 || y.value_or(0) != 0 || rotation.value_or(0) != 0; }
 };
 

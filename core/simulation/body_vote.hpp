@@ -13,6 +13,7 @@ namespace talus {
 struct Meetings {
   std::vector<char> surfaces;
   double stiffness_factor = 1, damping_factor = 1;
+  double dashpot_mass = 0;  ///< kg per metre of thickness, that dashpots go by
 };
 
 /// Springs and dashpots a side of a body may meet, half of them for each of its ends: per metre of thickness,
@@ -49,9 +50,10 @@ struct BodyVote {
 /// [side of boundary_of() the body]
 using SpringsOfSides = std::vector<SideSprings>;
 
-/// A body that moves as a whole: 6 or 3 unknowns, solved outright. Its contacts count `factor` times.
+/// A body that moves as a whole: 6 or 3 unknowns, solved outright, less those that its support gives. Its
+/// contacts count `factor` times.
 BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t body,
-                         const SpringsOfSides& springs, double factor);
+                         const SpringsOfSides& springs, const Support& support, double factor);
 
 /// A body of many elements, by Lanczos iteration with the residual added: never below the true value but for
 /// rounding. `treated`: with what was done about slivers.

@@ -21,6 +21,7 @@ void Simulation::exchange(Archive& archive) {
   if (archive.reading()) {
     if (s.stages_begun > s.scene.stages.size()) Archive::refuse();
     if (s.stages_begun > 0) s.enter_stage(s.scene.stages[s.stages_begun - 1].settings);
+    s.contacts.set_supports(s.model, s.stage.supports);
   }
   s.motion.exchange(archive);
   s.contacts.exchange(archive, s.model);

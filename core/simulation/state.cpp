@@ -87,6 +87,7 @@ void Simulation::State::step(double next_end) {
     make_plan(plan.target);
   }
   forces();
+  if (past_peak) go_on_from_rest();
   remember_deepest();
   check_step();
   profile.leave();
@@ -131,14 +132,13 @@ void Simulation::State::forces() {
     const double unbalanced = relaxation.unbalanced(model, mass, motion, stage.supports, pull);
     unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
   }
-  const double damping = relaxation.damping(how, model, mass, motion, dt_behind);
+  const double damping = relaxation.damping(how, model, mass, motion, dt_behind, critical.lambda);
   if (stage_begins) {
     take_velocities_at_stage();
     velocities_at_stage = {};  // not until the next stage
   }
   const StepConditions conditions{pull,     fresh ? pull : last_gravity, damping, pushed_behind(), plan.dt,
                                   !settling};
-  if (how.kind == Damping::Kind::kinetic) relaxation.remember_velocities(motion);
   if (at_once)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, dt_behind, observed,
                                                  motion, patch_velocity_at_step);  // Eqs. 18, 23–24
@@ -152,17 +152,30 @@ void Simulation::State::forces() {
   check_materials(work.kinetic);
   const bool step_changes = (beside_stage || was_beside_stage) && conditions.dt_behind > 0 &&
                             conditions.dt_ahead > 0 && conditions.dt_behind != conditions.dt_ahead;
-  ledger.book(contact_totals, strain_energy, loads, work, {stage_begins, springs_changed, step_changes});
+  ledger.book(contact_totals, strain_energy, loads, work,
+              {stage_begins, springs_changed, step_changes, from_rest});
   Sleep::Taken taken{};
   if (may_sleep_now) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
     ledger.lose_asleep(taken.kinetic, taken.damping_loss_ahead);
   }
   last_gravity = pull;
-  if (relaxation.past_peak(how, work.kinetic, taken.kinetic)) stop(conditions);
+  past_peak = relaxation.past_peak(how, work.kinetic, taken.kinetic);
   profile.enter(Phase::checks);
   fresh = stage_begins = springs_changed = false;
   to_be_seen = velocities_left = observed;
+}
+
+/// Takes all velocities at t_n but those that supports drive. Forces are found once more, for no dashpot
+/// pushes what rests, and bodies start as at the begin of a run.
+void Simulation::State::go_on_from_rest() {
+  motion.stop();
+  if (!settling) impose_at_once(model, mass, stage.supports, motion);
+  const double behind = std::exchange(dt_behind, 0);
+  from_rest = true;
+  forces();
+  from_rest = false;
+  dt_behind = behind;
 }
 
 /// Islands go to sleep in steps as long as the one before, of which velocities at t_n are kept.
@@ -237,6 +250,7 @@ void Simulation::State::begin_due_stages() {
   take_velocities_at_stage();
   Archive former(memory.bytes());
   exchange_memory(former);
+  contacts.set_supports(model, stage.supports);
   relaxation.forget();
   critical = votes.among(contacts.lightest_neighbours());
   summary.critical_dt = std::min(summary.critical_dt, critical.dt);
@@ -401,36 +415,6 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
     motion.patch_velocity[p] = {velocity.x - spin * at.y, velocity.y + spin * at.x};
   }
   if (model.bodies[index].kinematics != Kinematics::rigid) body.spin = 0;
-}
-
-/// Takes all velocities at t_n but those that supports drive.
-void Simulation::State::stop(const StepConditions& conditions) {
-  double taken = relaxation.take_velocities(model, mass, conditions, blocks, motion);
-  std::vector<Vec2> left;
-  for (std::uint32_t i = 0; i < model.bodies.size() && !settling; ++i) {
-    const Support& support = support_of(stage.supports, i);
-    if (!support.any() || !model.moves(i)) continue;
-    const Body& body = model.bodies[i];
-    const CoverRanges& ranges = model.ranges(body);
-    if (model.covered(i)) motion.average(model, i);
-    const BodyMotion begun = motion.bodies[i];
-    const std::span<Vec2> patches(motion.patch_velocity.data() + ranges.patch_begin,
-                                  ranges.patch_end - ranges.patch_begin);
-    left.assign(patches.begin(), patches.end());
-    set_rigid_motion(i, {support.x.value_or(0), support.y.value_or(0)}, support.rotation.value_or(0));
-    BodyMotion& now = motion.bodies[i];
-    // What was driven from this step on is no free motion.
-    const Vec2 held{support.x ? begun.velocity.x : 0, support.y ? begun.velocity.y : 0};
-    taken -= model.covered(i) ? mass.product(model, i, patches, patches) / 2
-                              : kinetic_energy(body, body.density(), now, now);
-    now.velocity = {now.velocity.x + begun.velocity.x - held.x, now.velocity.y + begun.velocity.y - held.y};
-    now.spin += support.rotation ? 0 : begun.spin;
-    now.rate = {now.rate.xx + begun.rate.xx, now.rate.xy + begun.rate.xy, now.rate.yx + begun.rate.yx,
-                now.rate.yy + begun.rate.yy};
-    for (std::size_t p = 0; p < left.size(); ++p)
-      patches[p] = {patches[p].x + left[p].x - held.x, patches[p].y + left[p].y - held.y};
-  }
-  ledger.lose_kinetic(taken);
 }
 
 }  // namespace talus

@@ -74,6 +74,8 @@ struct Simulation::State {
   std::size_t stages_begun = 0;
   // At t_n, for the coming forces().
   bool stage_begins = false, springs_changed = false;
+  bool past_peak = false;  ///< kinetic damping: velocities are to be taken
+  bool from_rest = false;  ///< they were, at this t_n
   struct {
     std::vector<BodyMotion> bodies;
     std::vector<Vec2> patches;  ///< [patch] m/s
@@ -153,7 +155,7 @@ struct Simulation::State {
   Vec2 displacement_at_start(const Carrier& carrier) const;
   void set_initial_velocities();
   void set_rigid_motion(std::size_t body, Vec2 velocity, double spin);
-  void stop(const StepConditions& conditions);
+  void go_on_from_rest();
   std::string place(std::uint32_t body) const;
   std::string without_number() const;
 

@@ -37,7 +37,7 @@ SideSprings stiffest_meeting(const Body& body, std::uint32_t surface, double len
   const double pieces = body.kinematics == Kinematics::covered ? most_contacts_on_side : 1;
   const auto damping = [&](double stiffness, double ratio) {
     return stiffness > 0
-               ? met.damping_factor * 2 * ratio * std::sqrt(pieces * body.contact_mass * stiffness / 2)
+               ? met.damping_factor * 2 * ratio * std::sqrt(pieces * met.dashpot_mass * stiffness / 2)
                : 0.0;
   };
   return {.normal = most.normal,
@@ -56,11 +56,14 @@ double length_of(const BoundarySide& side) {
 /// What all bodies show each other, counted once.
 class Crowd {
  public:
-  Crowd(const Model& model, std::size_t surface_count) : model_(model), showing_(surface_count, 0) {
+  Crowd(const Model& model, std::span<const Support> supports, std::size_t surface_count)
+      : model_(model), supports_(supports), showing_(surface_count, 0) {
     for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
       for (const std::uint32_t surface : surfaces_of(model.bodies[i])) ++showing_[surface];
       if (!model.moves(i)) continue;
       const double mass = model.bodies[i].contact_mass;
+      if (!is_held(i)) heaviest_ = std::max(heaviest_, mass);
+      if (is_held(i) && model.bodies[i].kinematics == Kinematics::rigid) continue;
       if (mass < lightest_) {
         second_lightest_ = lightest_;
         lightest_ = mass;
@@ -71,10 +74,16 @@ class Crowd {
     }
   }
 
+  /// Whether others meet it as a fixed body.
+  bool is_held(std::uint32_t index) const {
+    return model_.moves_as_a_whole(index) && support_of(supports_, index).all();
+  }
+
   /// What a body can meet: all others, and itself where it may.
   Meetings met_by(std::uint32_t index) const {
     const Body& own = model_.bodies[index];
     Meetings result{std::vector<char>(showing_.size(), 0)};
+    result.dashpot_mass = is_held(index) ? heaviest_ : own.contact_mass;
     std::vector<std::size_t> others = showing_;
     if (!own.meets_itself) {
       for (const std::uint32_t surface : surfaces_of(own)) --others[surface];
@@ -101,7 +110,9 @@ class Crowd {
   }
 
   const Model& model_;
+  std::span<const Support> supports_;
   std::vector<std::size_t> showing_;  ///< [surface] how many bodies have it
+  double heaviest_ = 0;               ///< of those whose mass dashpots meet
   double lightest_ = std::numeric_limits<double>::infinity(), second_lightest_ = lightest_;
   std::uint32_t lightest_body_ = 0;
 };
@@ -155,6 +166,7 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
   const Body &p = model.bodies[i], &q = model.bodies[j];
   if (p.kinematics != q.kinematics || scene.bodies[i].material != scene.bodies[j].material) return false;
   if (p.kinematics == Kinematics::covered || p.strain_mass_scale != q.strain_mass_scale) return false;
+  if (support_of(settings.supports, i).any() || support_of(settings.supports, j).any()) return false;
   if (p.corner_end - p.corner_begin != q.corner_end - q.corner_begin) return false;
   for (std::uint32_t c = 0; c < p.corner_end - p.corner_begin; ++c) {
     const std::uint32_t a = p.corner_begin + c, b = q.corner_begin + c;
@@ -170,7 +182,7 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
 
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
                    const ContactStage& contacts) {
-  const Crowd crowd(model, scene.surfaces.size());
+  const Crowd crowd(model, settings.supports, scene.surfaces.size());
   // Bodies that vote differently, as far as they are compared.
   struct Different {
     std::uint32_t body;
@@ -182,6 +194,8 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
   double longest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
+    const Support& support = support_of(settings.supports, i);
+    if (support.all() && model.bodies[i].kinematics == Kinematics::rigid) continue;
     auto alike = std::find_if(different.begin(), different.end(), [&](const Different& other) {
       return votes_alike(scene, settings, model, i, other.body);
     });
@@ -191,7 +205,7 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
       const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, i);
       const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
       const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs, factor)
-                                             : vote_as_a_whole(scene, model, i, springs, factor);
+                                             : vote_as_a_whole(scene, model, i, springs, support, factor);
       const bool supported = std::any_of(springs.begin(), springs.end(),
                                          [](const SideSprings& side) { return side.support > 0; });
       const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
@@ -246,7 +260,11 @@ void StepVote::drop_beyond(double longest) {
 }
 
 double StepVote::step_of(const Ballot& ballot, double share) {
-  return stable_step(ballot.lambda_alone + share * (ballot.lambda - ballot.lambda_alone), ballot.gamma);
+  return stable_step(lambda_of(ballot, share), ballot.gamma);
+}
+
+double StepVote::lambda_of(const Ballot& ballot, double share) {
+  return ballot.lambda_alone + share * (ballot.lambda - ballot.lambda_alone);
 }
 
 /// Of the springs, where a body meets none lighter.
@@ -256,10 +274,12 @@ double StepVote::share_of(const Ballot& ballot, double lightest) {
 
 template <class Share>
 CriticalStep StepVote::count(const Share& share) const {
-  CriticalStep smallest{std::numeric_limits<double>::infinity(), spring_dt_, 0, spring_body_, false};
+  CriticalStep smallest{std::numeric_limits<double>::infinity(), spring_dt_, 0, spring_body_, false, 0};
   for (const Voter& voter : voters_) {
     const Ballot& ballot = ballots_[voter.ballot];
-    const double dt = step_of(ballot, share(ballot, voter.body));
+    const double part = share(ballot, voter.body);
+    const double dt = step_of(ballot, part);
+    smallest.lambda = std::max(smallest.lambda, lambda_of(ballot, part));
     if (dt < smallest.dt) {
       smallest.dt = dt;
       smallest.body = voter.body;

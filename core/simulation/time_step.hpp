@@ -17,6 +17,7 @@ struct CriticalStep {
   double spring_dt;  ///< s, with contacts and supports alone, undamped, among fixed things: see StepVote
   std::uint32_t body, spring_body;  ///< who limits them
   bool strained;                    ///< dt mostly by strain modes, not by contacts
+  double lambda;  ///< 1/s², no vibration has a larger square of its angular frequency, of those who vote
 };
 
 /// Where a step is less of the critical one than this, energy that is lost has hardly to do with it.
@@ -58,6 +59,7 @@ class StepVote {
     bool strained;  ///< see CriticalStep
   };
   static double share_of(const Ballot& ballot, double lightest);
+  static double lambda_of(const Ballot& ballot, double share);
   static double step_of(const Ballot& ballot, double share);
   template <class Share>
   CriticalStep count(const Share& share) const;

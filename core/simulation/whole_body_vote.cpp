@@ -60,6 +60,22 @@ Elastic elastic_matrix(const Body& body, const SceneMaterial& material) {
   return {stiffness, model->viscous_time() * stiffness};
 }
 
+/// What a support gives moves by no force: as if it were very heavy.
+void hold(Eigen::MatrixXd& mass, const Support& support) {
+  constexpr double heavy = 1e6;
+  if (support.x) mass(0, 0) *= heavy;
+  if (support.y) mass(1, 1) *= heavy;
+  if (!support.rotation) return;
+  Eigen::VectorXd spin = Eigen::VectorXd::Zero(mass.rows());
+  if (mass.rows() == 3) {
+    spin(2) = 1;
+  } else {
+    spin(3) = -1, spin(4) = 1;
+  }
+  const Eigen::VectorXd turning = mass * spin;
+  mass += heavy / spin.dot(turning) * turning * turning.transpose();
+}
+
 double largest_eigenvalue(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& mass) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, mass,
                                                                          Eigen::EigenvaluesOnly);
@@ -69,10 +85,11 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& 
 }  // namespace
 
 BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t index,
-                         const SpringsOfSides& springs, double factor) {
+                         const SpringsOfSides& springs, const Support& support, double factor) {
   const Body& body = model.bodies[index];
   const SceneMaterial& material = scene.materials[scene.bodies[index].material];
-  const Eigen::MatrixXd mass = mass_matrix(body, material.density);
+  Eigen::MatrixXd mass = mass_matrix(body, material.density);
+  hold(mass, support);
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   Elastic elastic{zero, zero};
   if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);

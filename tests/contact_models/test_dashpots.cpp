@@ -46,3 +46,67 @@ TEST_CASE("dashpots of a wedge that leans do not pull it into the floor", "[laws
     }
   }
 }
+
+namespace {
+
+/// A block that hits a light wall at 1 m/s, which is held in some way; a notch above keeps it from the lanes.
+WorkingScene hits_wall(const char* law, const char* cover, const std::string& how, const char* notch = "") {
+  WorkingScene text;
+  text.law = law;
+  text.cover = cover;
+  text.material = R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e11, "poisson_ratio": 0.2},
+                     "dummy": {"density": 20, "model": "linear_elastic", "young_modulus": 1e11, "poisson_ratio": 0.2)";
+  text.interface = R"("normal_stiffness": 1e7, "tangential_stiffness": 0, "friction_angle": 0,
+                      "normal_damping": 0.3, "tangential_damping": 0},
+                      {"between": ["dummy", "*"], "normal_stiffness": 1e7, "tangential_stiffness": 0,
+                       "friction_angle": 0, "normal_damping": 0.3, "tangential_damping": 0)";
+  text.bodies = R"({"name": "wall", "material": "dummy", "polygon": [[-1, -1], [2, -1], [2, 0], [-1, 0]], )" +
+                how + R"(}, {"name": "block", "material": "rock", "velocity": [0, -1],
+                             "polygon": [[0, 1e-4], [1, 1e-4], [1, 1.0001])" +
+                notch + R"(, [0, 1.0001]]})";
+  text.time = R"({"end": 0.05, "dt": 2e-6})";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a wall that is held or driven is one that is fixed, whatever its mass", "[laws][damping]") {
+  const std::string held = R"("fix": ["x", "y", "rotation"])",
+                    driven = R"("drive": {"x": 0, "y": 0.5, "rotation": 0})";
+  for (const char* law : {"overlap_area", "vertex_edge"}) {
+    for (const char* cover : {"rigid", "block"}) {
+      for (const char* notch : {"", ", [0.5, 0.8]"}) {
+        INFO(law << ", " << cover << notch);
+        const auto leaves = [&](const std::string& how) {
+          return run_to_end(hits_wall(law, cover, how, notch)).body_motion(1).velocity.y;
+        };
+        const double due = leaves(R"("fixed": true)");
+        CHECK(due > 0.3);
+        CHECK(due < 0.6);
+        CHECK(leaves(held) == Approx(due).epsilon(2e-3));
+        WorkingScene pushed = hits_wall(law, cover, driven, notch);
+        pushed.bodies.replace(pushed.bodies.find("[0, -1]"), 7, "[0, -0.5]");
+        CHECK(run_to_end(pushed).body_motion(1).velocity.y - 0.5 == Approx(due).epsilon(2e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("a wall that a stage holds is a fixed one from there on", "[laws][damping]") {
+  const double due =
+      run_to_end(hits_wall("overlap_area", "rigid", R"("fixed": true)")).body_motion(1).velocity.y;
+  WorkingScene text = hits_wall("overlap_area", "rigid", R"("fix": ["x", "rotation"])");
+  text.rest =
+      R"("stages": [{"name": "held", "from": 5e-5, "set": {"/bodies/0/fix": ["x", "y", "rotation"]}}],)";
+  CHECK(run_to_end(text).body_motion(1).velocity.y == Approx(due).epsilon(2e-3));
+}
+
+TEST_CASE("no step is made shorter for a light rigid wall that cannot move", "[damping][time]") {
+  const auto step = [](const std::string& how) {
+    WorkingScene text = hits_wall("overlap_area", "rigid", how);
+    text.time = R"({"end": 0.01})";
+    return run_to_end(text).present_bound().dt;
+  };
+  CHECK(step(R"("fix": ["x", "y", "rotation"])") == step(R"("fixed": true)"));
+  CHECK(step(R"("fix": ["x", "y"])") < step(R"("fixed": true)") / 2);
+}
