@@ -8,7 +8,7 @@ namespace talus {
 void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
                         const AccelerationWork& work, const Occasion& occasion) {
   EnergyLedger& l = ledger_;
-  const double before = stored() + lost(), missed = l.residual;
+  const double before = stored() + lost(), missed = l.residual, moved = l.kinetic;
   l.kinetic = work.kinetic;
   l.strain = strain.stored;
   l.contact = contact.stored + loads.stored();
@@ -18,6 +18,8 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     // What was lost or done before t = 0 is no business of this ledger.
     initial_ = stored();
     started_ = true;
+  } else if (occasion.from_rest) {
+    l.global_damping_loss += moved - l.kinetic;
   } else {
     // Those of the step behind are found anew where a stage begins.
     const Losses former = occasion.stage_begins ? last : Losses{};
@@ -27,9 +29,10 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     l.contact_damping_loss += since_last_.contact_damping - former.contact_damping;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += since_last_.material - former.material;
-    // A viscous stress of t_n works half behind and half ahead of it. To second order that is a quarter of
-    // its last loss less than if it had acted over the whole step behind, as the material books it.
-    l.material_loss -= (since_last_.viscous - last.viscous) / 4;
+    // A viscous stress of t_n works half behind and half ahead of it, where the material books it over the
+    // whole step behind. What that of t_{n−1} takes is the geometric mean of both, where rates are alike.
+    l.material_loss -=
+        (since_last_.viscous - std::sqrt(std::max(0.0, since_last_.viscous * last.viscous))) / 2;
     l.external_work +=
         occasion.stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }
@@ -49,11 +52,6 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
 double LedgerKeeper::lost() const {
   const EnergyLedger& l = ledger_;
   return l.friction_loss + l.contact_damping_loss + l.global_damping_loss + l.material_loss + l.sleep_loss;
-}
-
-void LedgerKeeper::lose_kinetic(double taken) {
-  ledger_.global_damping_loss += taken;
-  ledger_.kinetic -= taken;
 }
 
 void LedgerKeeper::lose_asleep(double kinetic, double damping_ahead) {

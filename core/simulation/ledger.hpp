@@ -19,15 +19,14 @@ class LedgerKeeper {
     /// ⅛ Δt² aᵀ M a less than ½ vᵀ M v, which is no matter while steps are alike; a is another after the
     /// stage, so that the two changes do not cancel.
     bool step_changes;
+    bool from_rest;  ///< t_n is booked for the second time, after velocities were taken
   };
 
   /// At t_n, once all parts of the step are known. Where a stage begins what then differs is the work of who
-  /// changed the parameters, the loads and the supports.
+  /// changed the parameters, the loads and the supports; where velocities were taken, the kinetic
+  /// energy that goes with them.
   void book(const ContactTotals& contact, const Deformation::Energy& strain, Loads& loads,
             const AccelerationWork& work, const Occasion& occasion);
-
-  /// So much kinetic energy, J/m, was just taken, as by global damping.
-  void lose_kinetic(double taken);
 
   /// Bodies went to sleep after book(): their kinetic energy, and what damping was to take from them over the
   /// half of the step that lies ahead.

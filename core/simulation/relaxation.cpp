@@ -1,7 +1,5 @@
 #include "simulation/relaxation.hpp"
 
-#include "simulation/velocity_update.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +23,7 @@ BodyForce difference(const BodyForce& p, const BodyForce& q) {
 }  // namespace
 
 double Relaxation::damping(const Damping& how, const Model& model, const PatchMass& mass,
-                           const MotionState& motion, double dt) {
+                           const MotionState& motion, double dt, double largest) {
   if (how.kind != Damping::Kind::adaptive) {
     last_forces_.clear();  // they would be those of long ago
     return how.kind == Damping::Kind::constant ? how.constant : 0;
@@ -54,7 +52,7 @@ double Relaxation::damping(const Damping& how, const Model& model, const PatchMa
   }
   last_forces_ = motion.forces;
   last_patch_forces_ = motion.patch_force;
-  return inertia > 0 ? 2 * std::sqrt(std::max(0.0, stiffness / (dt * inertia))) : 0;
+  return inertia > 0 ? 2 * std::sqrt(std::clamp(stiffness / (dt * inertia), 0.0, largest)) : 0;
 }
 
 bool Relaxation::past_peak(const Damping& how, double kinetic, double gone) {
@@ -65,49 +63,6 @@ bool Relaxation::past_peak(const Damping& how, double kinetic, double gone) {
   const bool past = kinetic < last_kinetic_;
   last_kinetic_ = past ? 0 : kinetic - gone;
   return past;
-}
-
-void Relaxation::remember_velocities(const MotionState& motion) {
-  former_motion_ = motion.bodies;
-  former_patch_velocity_ = motion.patch_velocity;
-}
-
-double Relaxation::take_velocities(const Model& model, const PatchMass& mass,
-                                   const StepConditions& conditions, const Blocks& blocks,
-                                   MotionState& motion) const {
-  const double share = share_of_after(conditions);
-  double taken = 0;
-  std::vector<Vec2> at_step;
-  // Leaves v₊ − v_n and returns v_n.
-  const auto divide = [share](double before, double& after) {
-    const double middle = before + share * (after - before);
-    after -= middle;
-    return middle;
-  };
-  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    if (body.kinematics == Kinematics::fixed || blocks.is_asleep(b)) continue;
-    if (body.kinematics == Kinematics::covered) {
-      const CoverRanges& ranges = model.ranges(body);
-      at_step.clear();
-      for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-        const Vec2 before = former_patch_velocity_[p];
-        Vec2& after = motion.patch_velocity[p];
-        at_step.push_back({divide(before.x, after.x), divide(before.y, after.y)});
-      }
-      taken += mass.product(model, b, at_step, at_step) / 2;
-      continue;
-    }
-    const BodyMotion& before = former_motion_[b];
-    BodyMotion &after = motion.bodies[b], middle = after;
-    middle.velocity = {divide(before.velocity.x, after.velocity.x),
-                       divide(before.velocity.y, after.velocity.y)};
-    middle.spin = divide(before.spin, after.spin);
-    middle.rate = {divide(before.rate.xx, after.rate.xx), divide(before.rate.xy, after.rate.xy),
-                   divide(before.rate.yx, after.rate.yx), divide(before.rate.yy, after.rate.yy)};
-    taken += kinetic_energy(body, body.density(), middle, middle);
-  }
-  return taken;
 }
 
 void Relaxation::forget() {

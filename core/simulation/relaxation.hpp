@@ -4,7 +4,6 @@
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"
-#include "simulation/blocks.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/patch_mass.hpp"
 
@@ -18,21 +17,14 @@ namespace talus {
 class Relaxation {
  public:
   /// Global damping for the coming step, 1/s. Adaptive: 2ω with ω² = −v·Δf / (Δt v·M v), the Rayleigh
-  /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step.
+  /// quotient of the present motion v = v_{n−1/2}; Δf is the change of all forces over the last step. Viscous
+  /// ones change with the velocity, and are no stiffness: ω² is `largest`, 1/s², at most.
   double damping(const Damping& how, const Model& model, const PatchMass& mass, const MotionState& motion,
-                 double dt);
+                 double dt, double largest);
 
   /// Kinetic damping: whether the kinetic energy, J/m, has passed a peak, so that velocities are to be taken.
   /// `gone` of it went with bodies that fell asleep since.
   bool past_peak(const Damping& how, double kinetic, double gone = 0);
-
-  /// Kinetic damping: v₋, before the velocity update.
-  void remember_velocities(const MotionState& motion);
-  /// After it takes v_n from all bodies that do not sleep and leaves them what the forces at t_n make of
-  /// rest, as at the start of a run: with v₊ = 0 a mode would go on from further off than it is, by 1/√(1 −
-  /// (ωΔt/2)²). Returns ½ v_n·M v_n, J/m, which is what goes.
-  double take_velocities(const Model& model, const PatchMass& mass, const StepConditions& conditions,
-                         const Blocks& blocks, MotionState& motion) const;
 
   /// The motion so far has nothing to do with what comes.
   void forget();
@@ -49,8 +41,6 @@ class Relaxation {
   std::vector<BodyForce> last_forces_;
   std::vector<Vec2> last_patch_forces_;
   double last_kinetic_ = 0;
-  std::vector<BodyMotion> former_motion_;
-  std::vector<Vec2> former_patch_velocity_;
 };
 
 }  // namespace talus

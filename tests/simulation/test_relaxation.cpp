@@ -153,3 +153,51 @@ TEST_CASE("a body that falls while it settles is told of, one that sinks into pl
                                   Catch::Contains("by 0.3 m: displacements count from there"));
   }
 }
+
+TEST_CASE("kinetic damping leaves the books of dashpots right", "[simulation][relaxation]") {
+  for (const char* cover : {"rigid", "block"}) {
+    for (const char* law : {"overlap_area", "vertex_edge"}) {
+      for (const double damping_ratio : {0.3, 1.0}) {
+        INFO(cover << ' ' << law << ' ' << damping_ratio);
+        WorkingScene text;
+        text.cover = cover;
+        text.law = law;
+        text.gravity = "[0, -10]";
+        text.bodies = box("table", -3, -1, 3, 0, R"("fixed": true)") + ", " + box("a", 0, 0.5, 2, 1.5);
+        text.interface = fmt::format(R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8,
+            "friction_angle": 30, "normal_damping": {0}, "tangential_damping": {0})",
+                                     damping_ratio);
+        text.rest = R"("damping": "kinetic",)";
+        text.time = R"({"end": 0.6})";
+        const Simulation simulation = run_to_end(text);
+        CHECK(simulation.ledger().contact_damping_loss > 0.02 * simulation.ledger().throughput);
+        CHECK(residual_share(simulation.ledger()) < 3e-3);
+      }
+    }
+  }
+}
+
+TEST_CASE("what is viscous is no stiffness to adaptive damping, and is booked from the first step on",
+          "[simulation][relaxation]") {
+  for (const char* damping : {R"("adaptive")", "0"}) {
+    for (const double damping_time : {0.003, 0.1}) {
+      INFO(damping << ", " << damping_time << " s");
+      WorkingScene text;
+      text.cover = "block";
+      text.material = fmt::format(R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e8,
+          "poisson_ratio": 0.3, "damping_time": {})",
+                                  damping_time);
+      text.bodies = box("a", 0, 0, 1, 1, R"("surfaces": {"bottom": [0], "top": [2]})");
+      text.rest = fmt::format(R"("damping": {},
+          "surface_loads": [{{"body": "a", "surface": "top", "traction": [0, -2e4]}}],
+          "prescribed": [{{"body": "a", "surface": "bottom", "stiffness": 1e10, "displacement": [0, 0]}}],)",
+                              damping);
+      text.time = R"({"end": 0.005})";
+      Simulation simulation(text.read(), {});
+      while (simulation.advance()) {
+        const EnergyLedger& ledger = simulation.ledger();
+        REQUIRE(std::abs(ledger.residual) <= 3e-3 * ledger.throughput);
+      }
+    }
+  }
+}
