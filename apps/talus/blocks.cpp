@@ -53,10 +53,9 @@ int blocks_command(const Words& words) {
   const fs::path& file = source.file;
   const bool allow_plugins = given->count("allow-plugins") != 0;
   const std::string out = text_option(*given, "output");
-  if (std::error_code none; fs::equivalent(file, out, none))
-    throw InputError(fmt::format("'{}' is the scene itself: name another file", out));
   const std::vector<Override> overrides = overrides_of(usage, *given);
   const Scene scene = read_scene_of(source, registry, overrides, allow_plugins);
+  refuse_to_replace_what_is_read(scene, out);
   for (const std::string& warning : scene.warnings) print_warning(warning);
   const std::string plain =
       plain_scene_text(source.text, file.string(), registry, {overrides, allow_plugins});

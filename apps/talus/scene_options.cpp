@@ -92,6 +92,15 @@ SceneFile scene_file_of(const po::variables_map& given) {
   return {std::move(file), std::move(text)};
 }
 
+void refuse_to_replace_what_is_read(const Scene& scene, const std::filesystem::path& result) {
+  for (const std::filesystem::path& file : scene.files_read()) {
+    std::error_code none;
+    if (!std::filesystem::equivalent(file, result, none)) continue;
+    throw InputError(fmt::format("'{}' is {}: name another file", result.string(),
+                                 file == scene.file ? "the scene itself" : "read by the scene"));
+  }
+}
+
 std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& given) {
   std::vector<Override> overrides;
   for (const std::string& text : list_option(given, "set")) {

@@ -39,6 +39,9 @@ struct SceneFile {
 /// That of SCENE, here or shipped. Throws std::system_error where it cannot be read.
 SceneFile scene_file_of(const boost::program_options::variables_map& given);
 
+/// Throws InputError where a result would take the place of a scene or of a file that the scene reads.
+void refuse_to_replace_what_is_read(const Scene& scene, const std::filesystem::path& result);
+
 /// The overrides of --set.
 std::vector<Override> overrides_of(const Usage& usage, const boost::program_options::variables_map& given);
 

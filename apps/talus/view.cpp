@@ -55,8 +55,7 @@ int view_command(const Words& words) {
     throw InputError(
         fmt::format("'{0}' is there already: give -o {0} to replace it, or another file", out.string()));
   }
-  if (std::error_code none; fs::equivalent(what, out, none))
-    throw InputError(fmt::format("'{}' is the scene itself: name another file", out.string()));
+  refuse_to_replace_what_is_read(scene, out);
   if (fs::is_directory(out)) throw InputError(fmt::format("'{}' is a folder: name a file", out.string()));
   write_whole_file(out, scene_svg(Simulation(std::move(scene), RunSettings{})));
   fmt::print("{}\n", out.string());

@@ -124,6 +124,9 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   const double smallest = std::max(order.smallest_area, order.smallest_share * mean);
   std::vector<Block>& blocks = made.blocks;
   blocks = merge_small_faces(std::move(faces), smallest, thinnest_of_size * size, geos);
+  made.left_out = sum;
+  for (const Block& block : blocks) made.left_out -= block.area;
+  if (made.left_out < lost * size * size) made.left_out = 0;
   const Bridged bridged = bridge_pinches(blocks, 10 * reach_of_size * size, geos);
   made.bridged = bridged.points;
   for (Block& block : blocks) orient(block);
@@ -136,7 +139,7 @@ CutDomain cut_domain(const CutOrder& order, const Geos& geos) {
   }
   sort_blocks(blocks, 1e-9 * size);
   if (order.split_share == 0) return made;
-  split_quadrilaterals(blocks, order.split_share, order.split_seed, smallest);
+  split_quadrilaterals(blocks, order.split_share, order.split_seed, smallest, thinnest_of_size * size);
   for (Block& block : blocks) orient(block);
   sort_blocks(blocks, 1e-9 * size);
   return made;

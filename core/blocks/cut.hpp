@@ -44,6 +44,7 @@ using NamesOfOneLine = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct CutDomain {
   std::vector<Block> blocks;
+  double left_out = 0;     ///< m², below the smallest area and without a neighbour to join
   std::size_t pieces = 0;  ///< that lines cut the domain into, before small ones joined others
   std::vector<LooseEnd> loose_ends;
   NamesOfOneLine names_of_one_line;

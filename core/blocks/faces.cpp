@@ -180,7 +180,14 @@ void drop_idle_vertices(std::vector<Block>& blocks, double most) {
   for (Block& block : blocks) drop_idle_vertices_of(block, slack);
 }
 
-void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest) {
+void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest,
+                          double thinnest) {
+  const auto is_small = [&](const Ring& half) {
+    const double area = signed_area(half);
+    const double perimeter =
+        distance(half[0], half[1]) + distance(half[1], half[2]) + distance(half[2], half[0]);
+    return area < all_but_rounding * smallest || 2 * area < all_but_rounding * thinnest * perimeter;
+  };
   const std::size_t count = blocks.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (Random::stream(seed, i).share() >= share || !is_convex_quadrilateral(blocks[i])) continue;
@@ -189,9 +196,7 @@ void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_
     // Of diagonals that rounding alone tells apart the one from the first vertex.
     const std::size_t a = distance(ring[0], ring[2]) <= distance(ring[1], ring[3]) / all_but_rounding ? 0 : 1;
     const std::size_t b = a + 1, c = a + 2, d = (a + 3) % 4;
-    if (std::min(signed_area({ring[a], ring[b], ring[c]}), signed_area({ring[a], ring[c], ring[d]})) <
-        all_but_rounding * smallest)
-      continue;
+    if (is_small({ring[a], ring[b], ring[c]}) || is_small({ring[a], ring[c], ring[d]})) continue;
     blocks[i] = {{{ring[a], ring[b], ring[c]}}, {{surfaces[a], surfaces[b], 0}}, 0, {}};
     blocks.push_back({{{ring[a], ring[c], ring[d]}}, {{0, surfaces[c], surfaces[d]}}, 0, {}});
   }

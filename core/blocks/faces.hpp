@@ -29,8 +29,9 @@ void sort_blocks(std::vector<Block>& blocks, double same);
 void drop_idle_vertices(std::vector<Block>& blocks, double most);
 
 /// Splits a share of the convex quadrilaterals along their shorter diagonals, at random by their order,
-/// where no triangle is below `smallest` (m²).
-void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest);
+/// where no triangle is below `smallest` (m²) or thinner than `thinnest` (m), as faces are that merge.
+void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_t seed, double smallest,
+                          double thinnest);
 
 /// Which surface each edge belongs to: that of the first line which it lies on, within `tolerance` (m); where
 /// a corner was cut off, of the first line that the sides of the corner lie on. Returns the names of those

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -62,6 +63,26 @@ std::filesystem::path followed(std::filesystem::path file) {
   return file;
 }
 
+/// A new file beside one, which nobody else has or leads elsewhere: FILE.part, or FILE.part2 and so on where
+/// that is there. What may be done with it is as with the one whose place it takes.
+std::filesystem::path new_beside(const std::filesystem::path& file) {
+  constexpr int most_tried = 100;
+  struct stat former {};
+  const bool replaces = ::stat(file.c_str(), &former) == 0;
+  for (int number = 1; number <= most_tried; ++number) {
+    std::filesystem::path temporary = file;
+    temporary += number == 1 ? ".part" : fmt::format(".part{}", number);
+    const int descriptor =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0 && (errno == EEXIST || errno == ELOOP)) continue;
+    if (descriptor < 0) fail("cannot write", file);
+    if (replaces) ::fchmod(descriptor, former.st_mode & 07777);  // of another owner's file it may not do
+    ::close(descriptor);
+    return temporary;
+  }
+  fail("cannot write", file);
+}
+
 void write_into(const std::filesystem::path& file, std::string_view contents) {
   errno = 0;
   std::ofstream stream(file, std::ios::binary);
@@ -118,8 +139,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
     write_into(place, contents);
     return;
   }
-  std::filesystem::path temporary = place;
-  temporary += ".part";
+  const std::filesystem::path temporary = new_beside(place);
   errno = 0;
   std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));

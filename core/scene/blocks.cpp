@@ -196,7 +196,16 @@ class Expander {
         section.pointer(), points.size(), points.size() == 1 ? "" : "s", place_text(points[0], size)));
   }
 
-  /// Of units or an origin that do not fit.
+  void warn_of_what_is_left_out(const Section& section, const CutDomain& made) {
+    if (!(made.left_out > 0) || made.blocks.empty()) return;
+    double all = made.left_out;
+    for (const Block& block : made.blocks) all += block.area;
+    result.warnings.push_back(fmt::format(
+        "{}: {:.3g} m2 of {:.3g} m2 are left out: blocks below the smallest area that have no neighbour to "
+        "join",
+        section.pointer(), made.left_out, all));
+  }
+
   /// Whether a segment has a point in a box (Liang–Barsky).
   static bool passes(Vec2 from, Vec2 to, const Box& box) {
     double first = 0, last = 1;
@@ -211,6 +220,7 @@ class Expander {
            within(from.y, to.y - from.y, box.low.y, box.high.y);
   }
 
+  /// Of units or an origin that do not fit.
   void warn_of_drawing_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
     if (joints.drawing.empty()) return;
     std::vector<Vec2> points;
@@ -262,6 +272,7 @@ class Expander {
       warn_of_drawing_elsewhere(section, joints, box);
       warn_of_loose_ends(section, made.loose_ends, box.size());
       warn_of_bridges(section, made.bridged, box.size());
+      warn_of_what_is_left_out(section, made);
       warn_of_names_of_one_line(section, joints, made.names_of_one_line);
       if (made.blocks.empty()) {
         mistakes_.add(

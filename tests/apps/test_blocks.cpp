@@ -33,6 +33,23 @@ TEST_CASE("a scene is not replaced by its plain bodies", "[apps]") {
   CHECK(read_whole_file(scratch / "wall.json") == wall);
 }
 
+TEST_CASE("nor is a file that the scene reads", "[apps]") {
+  const Scratch scratch;
+  const std::string table = "t [s],a [m/s2]\n0,0\n1,1\n";
+  scratch.write("quake.csv", table);
+  std::string shaken = wall;
+  shaken.replace(shaken.find("\"monitors\""), 0, R"("base_acceleration": [{"time": "quake.csv"}, 0],
+ )");
+  scratch.write("wall.json", shaken);
+  for (const char* command : {"blocks", "view"}) {
+    const Call call = call_talus(scratch.folder(), {command, "wall.json", "-o", "quake.csv"});
+    INFO(command << ": " << call.err);
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("'quake.csv' is read by the scene: name another file"));
+    CHECK(read_whole_file(scratch / "quake.csv") == table);
+  }
+}
+
 TEST_CASE("a scene written with plain bodies reads and runs to the same bits", "[apps]") {
   const Scratch scratch;
   scratch.write("wall.json", wall);

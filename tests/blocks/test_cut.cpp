@@ -318,6 +318,23 @@ TEST_CASE("a share of the quadrilaterals becomes triangles, along the shorter di
         1);  // halves of 0.5 m2 would be small
 }
 
+TEST_CASE("no sliver is split off a block whose drawn line ends beside its corner", "[blocks]") {
+  // 5e-7 m beside the corner of a domain of 20 m: the other half would be a triangle as thin as that.
+  const std::string line = R"("joints": [{"points": [[0, 0], [19.9999995, 10]]}])",
+                    domain = "[[0, 0], [20, 0], [20, 10], [0, 10]]";
+  CHECK(made(line + R"(, "split": {"share": 1})", domain).size() == 2);
+  const std::string wider = R"("joints": [{"points": [[0, 0], [19.9, 10]]}])";
+  CHECK(made(wider + R"(, "split": {"share": 1})", domain).size() == 3);
+}
+
+TEST_CASE("a warning tells how much rock is left out for want of a neighbour", "[blocks]") {
+  const std::string bricks = R"("bricks": {"width": 0.2, "height": 0.1, "gap": 0.01})";
+  CHECK(sample::read(generator_scene(bricks)).warnings.empty());
+  const Scene scene = sample::read(generator_scene(bricks + R"(, "smallest_share": 0.6)"));
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Catch::Contains("/blocks/0") && Catch::Contains("are left out"));
+}
+
 TEST_CASE("edges along named joints and sides of the domain carry their surface", "[blocks]") {
   const Scene scene = sample::read(generator_scene(
       R"("surfaces": {"base": [0]}, "joint_sets": [{"dip": 90, "spacing": 0.5, "surface": "bedding"}],

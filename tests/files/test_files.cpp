@@ -38,6 +38,26 @@ TEST_CASE("a whole file replaces the one before and leaves nothing beside it", "
   CHECK_THROWS_AS(read_whole_file(scratch.folder()), std::system_error);
 }
 
+TEST_CASE("a whole file takes no other file for its own, and keeps who may read it", "[files]") {
+  const Scratch scratch;
+  const std::filesystem::path file = scratch / "figure.svg", beside = scratch / "figure.svg.part";
+  scratch.write("figure.svg.part", "of somebody");
+  write_whole_file(file, "first");
+  CHECK(read_whole_file(beside) == "of somebody");
+  std::filesystem::remove(beside);
+  std::filesystem::create_symlink(scratch.write("other", "elsewhere"), beside);
+  std::filesystem::create_directory(scratch / "figure.svg.part2");
+  std::filesystem::permissions(file,
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  write_whole_file(file, "second");
+  CHECK(read_whole_file(file) == "second");
+  CHECK_FALSE(std::filesystem::is_symlink(file));
+  CHECK(read_whole_file(scratch / "other") == "elsewhere");
+  CHECK(std::filesystem::is_directory(scratch / "figure.svg.part2"));
+  CHECK(std::filesystem::status(file).permissions() ==
+        (std::filesystem::perms::owner_read | std::filesystem::perms::owner_write));
+}
+
 TEST_CASE("links are followed, and what is no file is written into", "[files]") {
   const Scratch scratch;
   scratch.write("kept.svg", "old");

@@ -159,3 +159,11 @@ TEST_CASE("A body that its cover refuses is told with the cover's own words", "[
         "working.json: /bodies/0: body 'square' cannot have the cover 'flawed': squares are too plain");
   CHECK_THAT(refusal_with<SceneError>(Flaw::refuses_without_words), Contains("it does not say why"));
 }
+
+TEST_CASE("A needle whose area is little more than rounding gets a cover all the same", "[model][cover]") {
+  WorkingScene text;
+  text.cover = "block";
+  text.bodies = R"({"name": "needle", "material": "rock", "polygon": [[5.571428917683737, 7.428571890459266],
+      [5.999999999363636, 7.999999996818182], [6, 8]]})";
+  CHECK_NOTHROW(build_model(text.read()));
+}
