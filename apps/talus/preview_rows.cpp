@@ -53,15 +53,6 @@ void print_stiffness(const Scene& scene, const Preview& foreseen) {
   }
 }
 
-void print_flutter(const Preview& foreseen) {
-  if (!foreseen.stiffest || foreseen.stiffest->stilling == 0) return;
-  if (!(foreseen.stiffest->share() > may_flutter * (1 + rounding))) return;
-  print_row("",
-            fmt::format("with friction and no damping_time: what slides may flutter, and be braked less than "
-                        "its friction; a damping_time of about {:.1g} s stills it",
-                        foreseen.stiffest->stilling));
-}
-
 void print_cost(const Scene& scene, const Preview& foreseen) {
   std::string steps = fmt::format("about {:.0f}{} of {:.6g} s", foreseen.steps,
                                   foreseen.stages.empty() ? "" : ", the first", foreseen.dt);
@@ -80,6 +71,15 @@ void print_cost(const Scene& scene, const Preview& foreseen) {
 
 }  // namespace
 
+std::string words_of_flutter(const Preview& foreseen) {
+  if (!foreseen.stiffest || foreseen.stiffest->stilling == 0) return "";
+  if (!(foreseen.stiffest->share() > may_flutter * (1 + rounding))) return "";
+  return fmt::format(
+      "with friction and no damping_time: what slides may flutter, and be braked less than "
+      "its friction; a damping_time of about {:.1g} s stills it",
+      foreseen.stiffest->stilling);
+}
+
 void print_row(const std::string& label, const std::string& words) {
   fmt::print("  {:<10} {}\n", label, words);
 }
@@ -87,7 +87,7 @@ void print_row(const std::string& label, const std::string& words) {
 void print_preview(const Scene& scene, const Preview& foreseen) {
   print_start(scene, foreseen);
   print_stiffness(scene, foreseen);
-  print_flutter(foreseen);
+  if (const std::string words = words_of_flutter(foreseen); !words.empty()) print_row("", words);
   print_cost(scene, foreseen);
   const std::string frames =
       scene.output.frames ? fmt::format("{} frames every {:.6g} s", foreseen.frames, *scene.output.frames)

@@ -8,6 +8,7 @@
 #include "output/output_folder.hpp"
 #include "output/series.hpp"
 #include "picture/chart.hpp"
+#include "preview_rows.hpp"
 #include "safety/collapse.hpp"
 #include "safety/mechanism.hpp"
 #include "scene_options.hpp"
@@ -125,6 +126,13 @@ bool has_loads_in_time(const Scene& scene) {
          });
 }
 
+void warn_of_flutter(const Simulation& simulation) {
+  Preview foreseen;
+  compare_stiffness(simulation, foreseen);
+  if (const std::string words = words_of_flutter(foreseen); !words.empty())
+    print_warning(words + ", and without it the factor may come out some per cent low");
+}
+
 void warn_of_scene(const Scene& scene) {
   if (!scene.stages.empty())
     print_warning("the stages of the scene are left out: strength is reduced from the start");
@@ -227,6 +235,7 @@ int safety_command(const Words& words) {
   for (const std::string& warning : scene.warnings) print_warning(warning);
   warn_of_scene(scene);
   const Simulation sound(with_reduced_strength(scene, 1), {});  // or throws, before anything is lost
+  warn_of_flutter(sound);
   prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());
   const FolderLock mine(folder);
 

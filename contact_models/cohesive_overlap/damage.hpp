@@ -37,7 +37,7 @@ inline double damage_at(const Strength& strength, const Separation& at, double l
                             (shear + strength.friction * tension) / strength.cohesion);
   if (!(r > 1)) return 0;
   const double across = tension * at.open(), along = shear * std::abs(at.slip), both = across + along;
-  if (!(both > 0)) return 1;
+  if (!(both > 0) || std::isinf(r)) return 1;  // nothing to pass where a stage took the cohesion
   // Separation after the strength is passed, as a multiple of that where it was passed.
   const double softening = (across * strength.softening_opening + along * strength.softening_slip) / both;
   const double passed = (across * at.open() + along * std::abs(at.slip)) / both / r;

@@ -153,3 +153,15 @@ TEST_CASE("talus safety that is interrupted gives no factor", "[apps][safety]") 
   CHECK_THAT(call.out, Contains("interrupted: found to stand at ") && !Contains("factor of safety"));
   CHECK_THAT(read_whole_file(scratch / "results/safety.svg"), !Contains("factor of safety"));
 }
+
+TEST_CASE("talus safety tells what may flutter, as validate does", "[apps][safety]") {
+  const Scratch scratch;
+  const std::vector<std::string> quick{"--tolerance",    "0.5",   "--set",
+                                       "/time/end=0.05", "--set", "/settle/duration=0.02"};
+  CHECK(reduce(scratch, quick).err.find("may flutter") == std::string::npos);
+  std::vector<std::string> stiff = quick;
+  stiff.insert(stiff.end(), {"--set", "/interfaces/0/normal_stiffness=1e11", "--overwrite"});
+  const Call call = reduce(scratch, stiff);
+  CHECK(call.code == 0);
+  CHECK_THAT(call.err, Contains("what slides may flutter") && Contains("damping_time of about"));
+}
