@@ -182,12 +182,14 @@ class VertexEdge final : public ContactModel {
   /// it is held. Of springs that are given directly, per metre of tributary length.
   double reach_of_bonds(const Interfaces& interfaces, bool held) const {
     double reach = 0;
-    const std::uint32_t surfaces = interfaces.surface_count;
-    for (std::uint32_t i = 0; i < surfaces * surfaces; ++i) {
-      const double* values = interfaces.value + interfaces.row[i] * interfaces.parameter_count;
-      const Interface interface = read(values);
-      const double stiffness = direct_ ? normal_spring_ : interface.normal_stiffness;
-      if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
+    const std::size_t pairs = std::size_t{interfaces.surface_count} * interfaces.surface_count;
+    std::uint32_t rows = 0;  // that were looked at: many surfaces share few
+    for (std::size_t i = 0; i < pairs; ++i) {
+      for (; rows <= interfaces.row[i]; ++rows) {
+        const Interface interface = read(interfaces.value + std::size_t{rows} * interfaces.parameter_count);
+        const double stiffness = direct_ ? normal_spring_ : interface.normal_stiffness;
+        if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
+      }
     }
     return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
   }
