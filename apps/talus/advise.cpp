@@ -63,7 +63,7 @@ Usage usage_of_advise() {
               "from nature.",
               "SCENE",
               "  talus advise scenes/collision.json --error 1%\n"
-              "  talus advise scenes/incline.json --error 0.1% --vary /time/safety=0.8,0.4,0.1 --reference "
+              "  talus advise scenes/incline.json --error 0.1% --vary /time/safety=0.4,0.2,0.1 --reference "
               "scenes/reference/incline_overlap_area.csv\n"};
   usage.options.add_options()("error", po::value<std::string>()->value_name("SHARE"),
                               "RMS error over the largest value: 1% or 0.01");

@@ -88,7 +88,8 @@ Usage usage_of_compare() {
       "baseline,\n"
       "and from a reference. Runs are compared at the times of which both have a row; a reference is taken "
       "for\n"
-      "a line between its rows. Writes compare.csv, compare.json and a folder for each run to a folder:\n"
+      "a line between its rows. Writes compare.csv (all runs at the times of the first), compare.json and\n"
+      "a folder for each run to a folder:\n"
       "out/<scene name>-compare unless --out says otherwise.",
       "SCENE",
       "  talus compare scenes/incline.json --vary /contact/model=overlap_area,vertex_edge --at 2.95\n"

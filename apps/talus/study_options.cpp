@@ -147,6 +147,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   if (!order.reference.empty()) {
     reference =
         read_reference_text(read_whole_file(order.reference), order.reference.string(), std::array{column});
+    check_reference(*reference, column);
   }
   std::vector<std::filesystem::path> read = plain.scene.files_read();
   read.push_back(order.reference);

@@ -110,7 +110,7 @@ void conclude(Simulation& simulation, const RunOrder& order, Recorder& recorder,
   result.time = simulation.time();
   result.never_settled = simulation.scene().settle.has_value() && !simulation.started();
   result.history = recorder.take_series();
-  result.history.stopped = result.end != RunEnd::finished;
+  result.history.stopped = result.end == RunEnd::stopped;
   result.blocks = simulation.block_count();
   result.elements = simulation.element_count();
   result.summary = simulation.summary();

@@ -14,7 +14,7 @@ struct Series {
   std::vector<double> time;                 ///< s
   std::vector<std::string> names;           ///< [column] "<monitor>.<quantity> [unit]"
   std::vector<std::vector<double>> values;  ///< [column][row]
-  bool stopped = false;                     ///< whether the last row is where a run ended before its time
+  bool stopped = false;                     ///< whether the last row is where numerical trouble ended a run
 
   std::optional<std::size_t> column(std::string_view name) const;
 };

@@ -23,12 +23,18 @@ std::optional<std::size_t> most_work(const std::vector<StudyRun>& runs) {
   return best;
 }
 
-/// Of a column, as far as another history goes: what comes later must not make its errors small.
+/// Of a column, the line between its rows, as far as another history goes: what comes later must not make its
+/// errors small.
 double largest_magnitude(const Series& series, std::size_t column, const Series& as_far_as) {
   double largest = 0;
+  if (as_far_as.time.empty()) return 0;
+  for (const double end : {as_far_as.time.front(), as_far_as.time.back()}) {
+    const std::optional<double> value = interpolate(series.time, series.values[column], end);
+    if (value && std::isfinite(*value)) largest = std::max(largest, std::abs(*value));
+  }
   for (std::size_t i = 0; i < series.time.size(); ++i) {
-    const bool within = !as_far_as.time.empty() && series.time[i] >= as_far_as.time.front() &&
-                        series.time[i] <= as_far_as.time.back() * (1 + 1e-9);
+    const bool within =
+        series.time[i] >= as_far_as.time.front() && series.time[i] <= as_far_as.time.back() * (1 + 1e-9);
     const double value = series.values[column][i];
     if (within && std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
@@ -165,6 +171,13 @@ bool covers(const Series& due, const Series& history) {
 
 }  // namespace
 
+void check_reference(const Series& reference, const std::string& column) {
+  if (reference.column(column)) return;
+  throw InputError(
+      fmt::format("the reference has no column '{}'; it has '{}': choose one of these by --metric", column,
+                  fmt::join(reference.names, "', '")));
+}
+
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
                        const std::optional<Series>& reference, double rounding) {
   StudyFindings findings;
@@ -183,11 +196,9 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
                                         }) > 1;
   }
   const Series& due = reference ? *reference : runs[*finest].history;
+  check_reference(due, column);
   const auto due_column = due.column(column);
-  if (!due_column) {
-    throw InputError(
-        fmt::format("the reference has no column '{}'; it has '{}'", column, fmt::join(due.names, "', '")));
-  }
+  bool any_in_common = false;
   const double largest = largest_magnitude(due, *due_column, due);
   if (!(largest > rounding)) {
     throw InputError(fmt::format(
@@ -203,11 +214,17 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
       findings.part = fmt::format("from {:.6g} to {:.6g} s", due.time.front(), due.time.back());
     const auto found =
         deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
+    any_in_common = any_in_common || found;
     const double scale = largest_magnitude(due, *due_column, runs[i].history);
     if (!found || !std::isfinite(found->rms) || !(scale > 0)) continue;
     findings.runs[i].rms = found->rms;
     findings.runs[i].largest = found->largest;
     findings.runs[i].error = found->rms / scale;
+  }
+  if (reference && !any_in_common) {
+    throw InputError(
+        fmt::format("the reference goes from {:.6g} to {:.6g} s and has no time in common with a run",
+                    due.time.front(), due.time.back()));
   }
   mark_front(runs, findings.runs);
   find_orders(plan, runs, findings);

@@ -139,6 +139,18 @@ TEST_CASE("What a reference does after the runs does not make their errors small
   CHECK(*find_out(sample_steps(), runs, sample_column, reference).runs[0].error == error);
 }
 
+TEST_CASE("Errors are shares of the line between the rows of a reference, where those are few", "[study]") {
+  const std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                                   run_of(0.08, 2, 2), run_of(0.02, 9, 90)};
+  Series reference = run_of(0, 0, 0).history;
+  reference.time = {-1, 1e3};
+  reference.values = {{2, 2}};
+  CHECK(*find_out(sample_steps(), runs, sample_column, reference).runs[0].error == Approx(0.08));
+  reference.time = {1e3, 2e3};
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
+                    Contains("no time in common with a run"));
+}
+
 TEST_CASE("What rounding makes tells no order", "[study]") {
   // Errors of 4e-13, 2e-13 and 1e-13 fall with the step, and yet are none of its.
   const std::vector<StudyRun> runs = stepped({run_of(8e-13, 1, 10), run_of(4e-13, 2, 20),

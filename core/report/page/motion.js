@@ -108,11 +108,14 @@ async function motion() {
   for (const run of runs) films.push(await Film.of(run));
   if (!films.some(Boolean)) {
     const many = runs.some((run) => run.film.frames > 0);
+    const cut = runs.some((run) => run.record.end !== 'finished');
     byId('motion').replaceChildren(
       element('h2', {}, 'Motion'),
       many
         ? 'There are too many parts to draw here; frames.pvd opens in ParaView.'
-        : 'The scene asks for no frames: "output": {"frames": 0.1} writes one every tenth of a second.',
+        : cut
+          ? 'No frames were written before the run ended.'
+          : 'The scene asks for no frames: "output": {"frames": 0.1} writes one every tenth of a second.',
     );
     return;
   }

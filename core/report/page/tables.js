@@ -88,10 +88,12 @@ function deviationTable() {
 
 function costChart() {
   if (!comparison) return;
-  const names = Object.keys(comparison.deviations);
+  const key = data.reference ? 'from_reference' : 'from_baseline';
+  const names = Object.keys(comparison.deviations).filter((each) =>
+    runs.some((run) => (comparison.deviations[each][run.name] || {})[key]),
+  );
   const name = names.find((each) => parsed(each).quantity === 'speed') || names[0];
   if (!name) return;
-  const key = data.reference ? 'from_reference' : 'from_baseline';
   const points = runs
     .map((run, index) => {
       const entry = (comparison.deviations[name][run.name] || {})[key];

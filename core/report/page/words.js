@@ -47,9 +47,10 @@ function head() {
     byId('runs').append(`${comparison.varied} varies; ${record.bodies} bodies, ${number(record['t [s]'])} s`);
   byId('troubles').textContent = runs
     .filter((run) => run.record.end !== 'finished')
-    .map(
-      (run) =>
-        `${run.label}: ${run.record.end} at t = ${number(run.record['t [s]'], 6)} s. ${run.record.trouble || ''}`,
-    )
+    .map((run) => {
+      const settled = run.record['settling_t [s]'];
+      const when = settled === undefined ? `${number(run.record['t [s]'], 6)} s` : `${number(settled, 6)} s of settling`;
+      return `${run.label}: ${run.record.end} at t = ${when}. ${run.record.trouble || ''}`;
+    })
     .join('\n');
 }
