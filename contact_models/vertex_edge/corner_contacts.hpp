@@ -342,10 +342,10 @@ class CornerFinder {
     // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
     if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
     const std::uint32_t edge = flatter_edge(own, contact.vertex, along);
-    const auto [own_low, own_high] = straight_run(own, edge);
+    const auto [own_low, own_high] = straight_run(own, edge, !other.is_strip());
     const double start = dot(along, own.at(edge) + own_low * own.tangent(edge) - other.at(side));
     const double end = dot(along, own.at(edge) + own_high * own.tangent(edge) - other.at(side));
-    const auto [low, high] = straight_run(other, side);
+    const auto [low, high] = straight_run(other, side, true);
     const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
     // A side that stands upright on the other, at the end of a base, carries nothing there.
     if (own.is_strip()) return std::max(shadow, 0.0) / 2;

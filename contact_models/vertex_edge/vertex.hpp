@@ -31,16 +31,17 @@ struct Vertex {
 
 /// The straight stretch of boundary that a side belongs to, along its tangent from its start: collinear
 /// neighbours count as one, also beyond a cut, so that passing from one to the next changes nothing.
-inline std::pair<double, double> straight_run(const Piece& own, std::uint32_t side) {
+/// `spanned`: with what an edge that lies flat on it spans of sides that turn inwards.
+inline std::pair<double, double> straight_run(const Piece& own, std::uint32_t side, bool spanned = false) {
   const auto goes_on = [&](std::uint32_t other) {
     return other != side && own.real(other) && dot(own.tangent(side), own.tangent(other)) >= straight;
   };
   double low = 0, high = own.length(side);
   std::uint32_t at = side;
   for (; goes_on(own.next(at)); at = own.next(at)) high += own.length(own.next(at));
-  high += own.straight_after(at);
+  high += own.straight_after(at) + (spanned ? own.spanned_after(at) : 0);
   for (at = side; goes_on(own.previous(at)); at = own.previous(at)) low -= own.length(own.previous(at));
-  low -= own.straight_before(at);
+  low -= own.straight_before(at) + (spanned ? own.spanned_before(at) : 0);
   return {low, high};
 }
 

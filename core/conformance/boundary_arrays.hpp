@@ -22,7 +22,7 @@ struct BoundaryArrays {
 
   explicit BoundaryArrays(const std::vector<HeldBody>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) add(bodies[i], i);
-    if (!straight_beyond.empty()) straight_beyond.resize(2 * corners.size());
+    if (!straight_beyond.empty()) straight_beyond.resize(4 * corners.size());
   }
 
   void add(const HeldBody& body, std::uint32_t number) {
@@ -44,7 +44,7 @@ struct BoundaryArrays {
     if (body.strips || body.pieces.size() < 2) return;
     const std::vector<double> own = talus::straight_beyond(std::span(corners).subspan(first),
                                                            std::span(piece_start).subspan(first_piece));
-    straight_beyond.resize(2 * first);
+    straight_beyond.resize(4 * first);
     straight_beyond.insert(straight_beyond.end(), own.begin(), own.end());
   }
 

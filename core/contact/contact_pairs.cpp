@@ -110,11 +110,19 @@ void ContactStage::keep_touching(const Model& model) {
 
 void ContactStage::note_neighbours(const Model& model) {
   lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
+  heaviest_neighbour_.assign(model.bodies.size(), 0.0);
+  const auto note = [&](std::uint32_t own, std::uint32_t other) {
+    const Body& body = model.bodies[other];
+    // What is held by its centre has strain modes all the same.
+    if (!held_[other] || body.kinematics != Kinematics::rigid)
+      lightest_neighbour_[own] = std::min(lightest_neighbour_[own], body.contact_mass);
+    if (!held_[other]) heaviest_neighbour_[own] = std::max(heaviest_neighbour_[own], body.contact_mass);
+  };
   for (const Candidate& candidate : candidates_) {
     const std::uint32_t a = model.piece_body[candidate.piece_a], b = model.piece_body[candidate.piece_b];
     if (fixed_[a] != 0 || fixed_[b] != 0) continue;
-    lightest_neighbour_[a] = std::min(lightest_neighbour_[a], mass_as_neighbour_[b]);
-    lightest_neighbour_[b] = std::min(lightest_neighbour_[b], mass_as_neighbour_[a]);
+    note(a, b);
+    note(b, a);
   }
 }
 
@@ -150,7 +158,7 @@ void ContactStage::rebuild_pairs(const Model& model) {
       pair.a = of_a, pair.b = of_b;
       pair.master_halves = master_halves(of_a, of_b);
       pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
-      pair.reduced_mass = reduced_mass(of_a, of_b);
+      pair.reduced_mass = reduced_mass(model, of_a, of_b);
       pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
       pairs_.push_back(pair);
     }

@@ -73,8 +73,8 @@ std::vector<double> straight_beyond_of(const Model& model) {
     const std::vector<double> own = straight_beyond(
         corners,
         std::span(model.piece_start).subspan(body.piece_begin, body.piece_end - body.piece_begin + 1));
-    all.resize(2 * model.reference_x.size());
-    std::ranges::copy(own, all.begin() + std::ptrdiff_t{2} * model.piece_start[body.piece_begin]);
+    all.resize(4 * model.reference_x.size());
+    std::ranges::copy(own, all.begin() + std::ptrdiff_t{4} * model.piece_start[body.piece_begin]);
   }
   return all;
 }
@@ -93,6 +93,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       keeps_stored_(scene.sleep.has_value()),
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
+      heaviest_neighbour_(model.bodies.size(), 0.0),
       loads_(model, level, workers, scene.sleep.has_value()),
       corner_drift_(model.reference_x.size()),
       drift_(model.bodies.size()) {
@@ -161,28 +162,21 @@ bool ContactStage::set_interfaces(const std::vector<std::vector<double>>& values
 }
 
 void ContactStage::set_supports(const Model& model, std::span<const Support> supports) {
-  constexpr double unmoved = std::numeric_limits<double>::infinity();
-  const std::vector<double> former = std::move(mass_);
-  mass_.clear();
-  mass_as_neighbour_.clear();
-  for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
-    const Body& body = model.bodies[i];
-    const bool held = model.moves_as_a_whole(i) && support_of(supports, i).all();
-    mass_.push_back(held || fixed_[i] ? unmoved : body.contact_mass);
-    // What is held by its centre has strain modes all the same.
-    mass_as_neighbour_.push_back(held && body.kinematics == Kinematics::rigid ? unmoved : body.contact_mass);
-  }
-  if (mass_ == former) return;
-  for (BodyPair& pair : pairs_) pair.reduced_mass = reduced_mass(pair.a, pair.b);
+  const std::vector<char> former = std::move(held_);
+  held_.clear();
+  for (std::uint32_t i = 0; i < model.bodies.size(); ++i)
+    held_.push_back(model.moves_as_a_whole(i) && support_of(supports, i).all());
+  if (held_ == former) return;
+  for (BodyPair& pair : pairs_) pair.reduced_mass = reduced_mass(model, pair.a, pair.b);
   slack_ = -1;
 }
 
-/// m_a m_b/(m_a + m_b), of two that nothing moves anything.
-float ContactStage::reduced_mass(std::uint32_t a, std::uint32_t b) const {
-  const double of_a = mass_[a], of_b = mass_[b];
-  if (std::isinf(of_a) && std::isinf(of_b)) return 1;
-  if (std::isinf(of_a)) return static_cast<float>(of_b);
-  if (std::isinf(of_b)) return static_cast<float>(of_a);
+/// m_a m_b/(m_a + m_b), or the mass of the one that alone can move; of two that are held, as of two that are
+/// not, for they may deform.
+float ContactStage::reduced_mass(const Model& model, std::uint32_t a, std::uint32_t b) const {
+  const double of_a = model.bodies[a].contact_mass, of_b = model.bodies[b].contact_mass;
+  if (fixed_[a] || (held_[a] && !held_[b] && !fixed_[b])) return static_cast<float>(of_b);
+  if (fixed_[b] || (held_[b] && !held_[a])) return static_cast<float>(of_a);
   return static_cast<float>(of_a * of_b / (of_a + of_b));
 }
 

@@ -53,6 +53,8 @@ class ContactStage {
 
   /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.
   std::span<const double> lightest_neighbours() const { return lightest_neighbour_; }
+  /// The heaviest that is not held; 0 if there is none.
+  std::span<const double> heaviest_neighbours() const { return heaviest_neighbour_; }
 
   struct Conditions {
     double dt;  ///< s, from t_{n-1} to t_n
@@ -98,7 +100,7 @@ class ContactStage {
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
-  float reduced_mass(std::uint32_t a, std::uint32_t b) const;
+  float reduced_mass(const Model& model, std::uint32_t a, std::uint32_t b) const;
   void shape_all(const Model& model, MotionState& motion);
   void shape_listed(const Model& model, MotionState& motion);
   void list_to_shape(const Model& model);
@@ -186,14 +188,12 @@ class ContactStage {
   Interfaces interfaces_{};
   std::vector<double> priority_;  ///< [body], empty with symmetric roles
   std::vector<char> fixed_;       ///< [body]
-  /// [body] kg per metre of thickness, that dashpots meet and that the step of neighbours goes by; infinite
-  /// where nothing moves it.
-  std::vector<double> mass_, mass_as_neighbour_;
+  std::vector<char> held_;        ///< [body] whether others meet it as a fixed one
   /// [body] the surface class of one that is plain as BodyPair says it, or internal_side.
   std::vector<std::uint32_t> plain_surface_;
   std::vector<std::uint32_t> first_piece_;  ///< [body] as PiecePairs says it
   std::vector<double> clear_depth_;         ///< [piece] as Boundaries::clear_depth
-  std::vector<double> straight_beyond_;     ///< [2 * corner] as Boundaries::straight_beyond; may be empty
+  std::vector<double> straight_beyond_;     ///< [4 * corner] as Boundaries::straight_beyond; may be empty
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
   PairSharing sharing_;
@@ -207,7 +207,7 @@ class ContactStage {
 
   NeighbourSearch search_;
   std::vector<Candidate> candidates_;
-  std::vector<double> lightest_neighbour_;  ///< [body] kg per metre of thickness
+  std::vector<double> lightest_neighbour_, heaviest_neighbour_;  ///< [body] kg per metre of thickness
   InLines<BodyPair> pairs_;
   /// What goes with a pair in contact from one search to the next.
   struct FormerPair {

@@ -13,6 +13,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive.of_known_size(drift_);
   archive(searches_);
   archive.of_known_size(lightest_neighbour_);
+  archive.of_known_size(heaviest_neighbour_);
   slots_.close_up(pairs_, batch_begin_);
   archive(pairs_);
   archive(piece_pairs_);

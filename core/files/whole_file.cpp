@@ -64,11 +64,9 @@ std::filesystem::path followed(std::filesystem::path file) {
 }
 
 /// A new file beside one, which nobody else has or leads elsewhere: FILE.part, or FILE.part2 and so on where
-/// that is there. What may be done with it is as with the one whose place it takes.
+/// that is there.
 std::filesystem::path new_beside(const std::filesystem::path& file) {
   constexpr int most_tried = 100;
-  struct stat former {};
-  const bool replaces = ::stat(file.c_str(), &former) == 0;
   for (int number = 1; number <= most_tried; ++number) {
     std::filesystem::path temporary = file;
     temporary += number == 1 ? ".part" : fmt::format(".part{}", number);
@@ -76,7 +74,6 @@ std::filesystem::path new_beside(const std::filesystem::path& file) {
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0 && (errno == EEXIST || errno == ELOOP)) continue;
     if (descriptor < 0) fail("cannot write", file);
-    if (replaces) ::fchmod(descriptor, former.st_mode & 07777);  // of another owner's file it may not do
     ::close(descriptor);
     return temporary;
   }
@@ -145,6 +142,9 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   stream.close();
   if (!stream) fail_without(temporary, place);
+  // What may be done with it is as with the one whose place it takes, unless that is somebody else's.
+  if (struct stat former{}; ::stat(place.c_str(), &former) == 0)
+    ::chmod(temporary.c_str(), former.st_mode & 07777);
   if (durability == Durability::on_disk && !flushed(temporary)) fail_without(temporary, place);
   std::filesystem::rename(temporary, place, problem);
   if (problem) {

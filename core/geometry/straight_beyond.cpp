@@ -27,14 +27,23 @@ class Outline {
     std::ranges::sort(banks_, {}, [&](std::uint32_t side) { return std::pair{corners_[side].cut, side}; });
   }
 
-  /// How far it goes straight on beyond the cut at the end (`forward`) or at the start of a side, m.
-  double beyond(std::uint32_t side, bool forward) const {
-    if (is_cut(side) || !(corners_[side].length > 0) || !is_cut(beside(side, forward))) return 0;
-    double way = 0;
+  struct Beyond {
+    double straight = 0, spanned = 0;  ///< m
+  };
+  /// How far it goes on beyond the cut at the end (`forward`) or at the start of a side.
+  Beyond beyond(std::uint32_t side, bool forward) const {
+    if (is_cut(side) || !(corners_[side].length > 0) || !is_cut(beside(side, forward))) return {};
+    Beyond way;
+    std::uint32_t before = side;
     for (auto at = neighbour(side, forward); at && *at != side; at = neighbour(*at, forward)) {
-      const double share = forward ? goes_on(side, *at) : goes_on(*at, side);
-      if (!(share > 0)) break;
-      way += share * corners_[*at].length;
+      const auto share_from = [&](std::uint32_t from) {
+        return forward ? goes_on(from, *at) : goes_on(*at, from);
+      };
+      const double share = share_from(side);
+      if (!(share > 0 && share_from(before) > 0)) break;  // nor over a bend that is taken back
+      const bool straight_on = share == 1 && way.spanned == 0;
+      (straight_on ? way.straight : way.spanned) += share * corners_[*at].length;
+      before = *at;
     }
     return way;
   }
@@ -90,11 +99,13 @@ class Outline {
 std::vector<double> straight_beyond(std::span<const BoundaryCorner> corners,
                                     std::span<const std::uint32_t> piece_start) {
   const Outline outline(corners, piece_start);
-  std::vector<double> shares(2 * corners.size());
+  std::vector<double> shares(4 * corners.size());
   for (std::uint32_t side = 0; side < corners.size(); ++side) {
     for (const bool forward : {false, true}) {
-      const double beyond = outline.beyond(side, forward);
-      if (beyond > 0) shares[2 * side + (forward ? 1 : 0)] = beyond / corners[side].length;
+      const auto [straight_on, spanned] = outline.beyond(side, forward);
+      double* const at = &shares[4 * side + (forward ? 1 : 0)];
+      if (straight_on > 0) at[0] = straight_on / corners[side].length;
+      if (spanned > 0) at[2] = spanned / corners[side].length;
     }
   }
   return shares;

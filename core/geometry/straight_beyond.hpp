@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// Boundaries::straight_beyond of a body of one element that is cut into pieces: [2 * corner]. Corners of
+/// Boundaries::straight_beyond of a body of one element that is cut into pieces: [4 * corner]. Corners of
 /// `piece_start`, which has one entry more than there are pieces, count from its first.
 std::vector<double> straight_beyond(std::span<const BoundaryCorner> corners,
                                     std::span<const std::uint32_t> piece_start);

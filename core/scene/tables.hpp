@@ -184,7 +184,8 @@ inline constexpr Parameter limits[] = {
     number("energy_residual", "-", 0.05, above_zero, unbounded,
            "Share of the energy throughput that may go missing before a run stops; it warns at 0.01."),
     number("penetration", "-", 0.3, above_zero, unbounded,
-           "Share of the smallest width of a body that an overlap may reach before a run stops."),
+           "Share of the smallest width of a body, or of the size of its elements where that is less, that "
+           "an overlap may reach before a run stops."),
 };
 
 inline constexpr Parameter tolerance[] = {

@@ -43,6 +43,7 @@ inline constexpr Reach at_resultant{1.3, 13.0 / 108}, dashpot_at_resultant{1.2, 
 /// Largest squared angular frequency of a body with all its springs, 1/s², and largest damping rate, 1/s.
 struct BodyVote {
   double lambda = 0, gamma = 0;
+  double gamma_alone = 0;     ///< without dashpots of contacts
   double elastic_lambda = 0;  ///< of its strain modes alone
   double spring_lambda = 0;   ///< of its springs alone, among fixed things
 };

@@ -20,6 +20,9 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     started_ = true;
   } else if (occasion.from_rest) {
     l.global_damping_loss += moved - l.kinetic;
+    // Without dashpots less friction holds.
+    l.friction_loss += since_last_.friction;
+    l.material_loss += since_last_.material;
   } else {
     // Those of the step behind are found anew where a stage begins.
     const Losses former = occasion.stage_begins ? last : Losses{};

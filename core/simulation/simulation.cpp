@@ -193,7 +193,8 @@ CriticalStep Simulation::bound_of_stage(std::size_t stage) {
   s.contacts.set_interfaces(settings.interface_values);
   const StepVote votes(s.scene, settings, s.model, s.contacts);
   s.contacts.set_interfaces(s.stage.interface_values);
-  return s.with_numbers_outside(votes.among(s.contacts.lightest_neighbours()));
+  return s.with_numbers_outside(
+      votes.among(s.contacts.lightest_neighbours(), s.contacts.heaviest_neighbours()));
 }
 double Simulation::body_width(std::size_t body) const {
   return state_->model.bodies[state_->numbering.inside(body)].width;

@@ -252,7 +252,7 @@ void Simulation::State::begin_due_stages() {
   exchange_memory(former);
   contacts.set_supports(model, stage.supports);
   relaxation.forget();
-  critical = votes.among(contacts.lightest_neighbours());
+  critical = votes.among(contacts.lightest_neighbours(), contacts.heaviest_neighbours());
   summary.critical_dt = std::min(summary.critical_dt, critical.dt);
   stage_begins = true;
 }
@@ -293,7 +293,7 @@ double Simulation::State::nominal_dt() const {
 /// The step fits the neighbours that bodies have: it is cut short at once where it must be, and grows with
 /// the next plan.
 void Simulation::State::vote_again() {
-  critical = votes.among(contacts.lightest_neighbours());
+  critical = votes.among(contacts.lightest_neighbours(), contacts.heaviest_neighbours());
   if (scene.time.dt) return;
   const bool too_long = plan.dt > nominal_dt() * (1 + rounding);
   if (too_long || plan.done == 0) make_plan(plan.target);

@@ -83,7 +83,7 @@ class Crowd {
   Meetings met_by(std::uint32_t index) const {
     const Body& own = model_.bodies[index];
     Meetings result{std::vector<char>(showing_.size(), 0)};
-    result.dashpot_mass = is_held(index) ? heaviest_ : own.contact_mass;
+    result.dashpot_mass = is_held(index) ? std::max(heaviest_, own.contact_mass) : own.contact_mass;
     std::vector<std::size_t> others = showing_;
     if (!own.meets_itself) {
       for (const std::uint32_t surface : surfaces_of(own)) --others[surface];
@@ -211,9 +211,11 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
       const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
       here.ballot = {contacts_alone ? vote.elastic_lambda : vote.lambda,
                      vote.lambda,
+                     contacts_alone ? vote.gamma_alone : vote.gamma,
                      vote.gamma,
                      factor,
                      model.bodies[i].contact_mass,
+                     contacts.law() != nullptr ? met.dashpot_mass : 0,
                      vote.elastic_lambda > 0.5 * vote.lambda};
       here.spring_lambda = vote.spring_lambda;
       if (different.size() < most_compared) {
@@ -228,9 +230,9 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
       spring_dt_ = bounce;
       spring_body_ = i;
     }
-    const double alone = step_of(ballot, share_of(ballot, std::numeric_limits<double>::infinity()));
-    longest = std::min(longest, std::max(alone, step_of(ballot, 1)));
-    if (std::min(alone, step_of(ballot, 1)) > rounded * longest) continue;
+    const double alone = longest_step_of(ballot);
+    longest = std::min(longest, std::max(alone, step_of(ballot, {1, 1})));
+    if (std::min(alone, step_of(ballot, {1, 1})) > rounded * longest) continue;
     if (!known.number) {
       known.number = static_cast<std::uint32_t>(ballots_.size());
       ballots_.push_back(ballot);
@@ -243,8 +245,7 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
 /// Who never has a step so short leaves, and so do ballots of nobody else.
 void StepVote::drop_beyond(double longest) {
   const auto beyond = [&](const Ballot& ballot) {
-    const double alone = step_of(ballot, share_of(ballot, std::numeric_limits<double>::infinity()));
-    return std::min(alone, step_of(ballot, 1)) > longest;
+    return std::min(longest_step_of(ballot), step_of(ballot, {1, 1})) > longest;
   };
   std::vector<std::uint32_t> number(ballots_.size());
   std::vector<Ballot> kept;
@@ -259,17 +260,27 @@ void StepVote::drop_beyond(double longest) {
   voters_.shrink_to_fit();
 }
 
-double StepVote::step_of(const Ballot& ballot, double share) {
-  return stable_step(lambda_of(ballot, share), ballot.gamma);
+double StepVote::step_of(const Ballot& ballot, Shares shares) {
+  const double gamma = shares.dashpots == 1
+                           ? ballot.gamma
+                           : ballot.gamma_alone + shares.dashpots * (ballot.gamma - ballot.gamma_alone);
+  return stable_step(lambda_of(ballot, shares.springs), gamma);
 }
 
 double StepVote::lambda_of(const Ballot& ballot, double share) {
   return ballot.lambda_alone + share * (ballot.lambda - ballot.lambda_alone);
 }
 
-/// Of the springs, where a body meets none lighter.
-double StepVote::share_of(const Ballot& ballot, double lightest) {
-  return std::min(1.0, (1 + std::sqrt(ballot.mass / lightest)) / ballot.factor);
+double StepVote::longest_step_of(const Ballot& ballot) {
+  return step_of(ballot, shares_of(ballot, std::numeric_limits<double>::infinity(), 0));
+}
+
+/// Of the springs, where a body meets none lighter, and of the dashpots of one that is held, where it meets
+/// none heavier: they go with √m.
+StepVote::Shares StepVote::shares_of(const Ballot& ballot, double lightest, double heaviest) {
+  const double met = std::max(ballot.mass, heaviest);
+  return {std::min(1.0, (1 + std::sqrt(ballot.mass / lightest)) / ballot.factor),
+          met < ballot.dashpot_mass ? std::sqrt(met / ballot.dashpot_mass) : 1};
 }
 
 template <class Share>
@@ -277,9 +288,9 @@ CriticalStep StepVote::count(const Share& share) const {
   CriticalStep smallest{std::numeric_limits<double>::infinity(), spring_dt_, 0, spring_body_, false, 0};
   for (const Voter& voter : voters_) {
     const Ballot& ballot = ballots_[voter.ballot];
-    const double part = share(ballot, voter.body);
-    const double dt = step_of(ballot, part);
-    smallest.lambda = std::max(smallest.lambda, lambda_of(ballot, part));
+    const Shares shares = share(ballot, voter.body);
+    const double dt = step_of(ballot, shares);
+    smallest.lambda = std::max(smallest.lambda, lambda_of(ballot, shares.springs));
     if (dt < smallest.dt) {
       smallest.dt = dt;
       smallest.body = voter.body;
@@ -290,11 +301,14 @@ CriticalStep StepVote::count(const Share& share) const {
 }
 
 CriticalStep StepVote::anyhow() const {
-  return count([](const Ballot&, std::uint32_t) { return 1.0; });
+  return count([](const Ballot&, std::uint32_t) { return Shares{1, 1}; });
 }
 
-CriticalStep StepVote::among(std::span<const double> lightest) const {
-  return count([&](const Ballot& ballot, std::uint32_t body) { return share_of(ballot, lightest[body]); });
+CriticalStep StepVote::among(std::span<const double> lightest, std::span<const double> heaviest) const {
+  return count([&](const Ballot& ballot, std::uint32_t body) {
+    return shares_of(ballot, lightest[body],
+                     heaviest.empty() ? std::numeric_limits<double>::infinity() : heaviest[body]);
+  });
 }
 
 std::string limiter_of(const Scene& scene, const CriticalStep& step) {

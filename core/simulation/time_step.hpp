@@ -46,21 +46,26 @@ class StepVote {
   /// Whoever meets whom.
   CriticalStep anyhow() const;
   /// While each body meets none lighter than `lightest` [body], kg per metre of thickness; infinite: it meets
-  /// fixed bodies only. Never shorter than anyhow().
-  CriticalStep among(std::span<const double> lightest) const;
+  /// fixed bodies only. And one that is held none heavier than `heaviest` [body]; empty: any. Never shorter
+  /// than anyhow().
+  CriticalStep among(std::span<const double> lightest, std::span<const double> heaviest = {}) const;
 
  private:
   /// The largest eigenvalue is convex in the factor of the contact springs: between none and the largest it
   /// stays below the chord.
   struct Ballot {
     double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
-    double gamma;                 ///< 1/s
-    double factor, mass;
+    double gamma_alone, gamma;    ///< 1/s, without dashpots of contacts, and with all of them
+    double factor, mass, dashpot_mass;
     bool strained;  ///< see CriticalStep
   };
-  static double share_of(const Ballot& ballot, double lightest);
+  struct Shares {
+    double springs, dashpots;
+  };
+  static Shares shares_of(const Ballot& ballot, double lightest, double heaviest);
+  static double longest_step_of(const Ballot& ballot);
   static double lambda_of(const Ballot& ballot, double share);
-  static double step_of(const Ballot& ballot, double share);
+  static double step_of(const Ballot& ballot, Shares shares);
   template <class Share>
   CriticalStep count(const Share& share) const;
   void drop_beyond(double longest);

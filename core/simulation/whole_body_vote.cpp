@@ -93,7 +93,8 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   Elastic elastic{zero, zero};
   if (body.kinematics == Kinematics::affine) elastic = elastic_matrix(body, material);
-  Eigen::MatrixXd contacts = zero, supports = zero, damping = elastic.damping;
+  Eigen::MatrixXd contacts = zero, supports = zero, damping = elastic.damping,
+                  damping_alone = elastic.damping;
   const std::vector<BoundarySide> sides = boundary_of(scene, model, index);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const BoundarySide& side = sides[i];
@@ -116,11 +117,12 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t i
     for (const Shape& shape : {at_start, at_end}) {
       supports += on.support * shape.transpose() * shape;
       damping += on.support_damping * shape.transpose() * shape;
+      damping_alone += on.support_damping * shape.transpose() * shape;
     }
   }
   return {largest_eigenvalue(elastic.stiffness + supports + factor * contacts, mass),
-          largest_eigenvalue(damping, mass), largest_eigenvalue(elastic.stiffness, mass),
-          largest_eigenvalue(supports + contacts, mass)};
+          largest_eigenvalue(damping, mass), largest_eigenvalue(damping_alone, mass),
+          largest_eigenvalue(elastic.stiffness, mass), largest_eigenvalue(supports + contacts, mass)};
 }
 
 }  // namespace talus

@@ -110,3 +110,41 @@ TEST_CASE("no step is made shorter for a light rigid wall that cannot move", "[d
   CHECK(step(R"("fix": ["x", "y", "rotation"])") == step(R"("fixed": true)"));
   CHECK(step(R"("fix": ["x", "y"])") < step(R"("fixed": true)") / 2);
 }
+
+TEST_CASE("two walls that are held and deform press on each other with their own masses", "[damping][time]") {
+  for (const char* law : {"overlap_area", "vertex_edge"}) {
+    INFO(law);
+    WorkingScene text;
+    text.law = law;
+    text.cover = "block";
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.2)";
+    text.interface = R"("normal_stiffness": 1e11, "tangential_stiffness": 1e11, "friction_angle": 30,
+                        "normal_damping": 1, "tangential_damping": 1)";
+    text.bodies = box("held", 0, 0, 0.01, 0.01, R"("fix": ["x", "y", "rotation"])") + ", " +
+                  box("driven", 0, 0.01, 0.01, 0.02, R"("drive": {"x": 0, "y": -0.01, "rotation": 0})");
+    text.time = R"({"end": 0.002})";
+    const Simulation simulation = run_to_end(text);
+    CHECK(residual_share(simulation.ledger()) < 1e-3);
+    CHECK(contact_sum(simulation.contacts(), 1, {}).force.y > 100);
+  }
+}
+
+TEST_CASE("a deformable platen goes by the bodies beside it, not by the heaviest of the scene",
+          "[damping][time]") {
+  const auto steps = [](const char* far) {
+    WorkingScene text;
+    text.cover = "block";
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.2)";
+    text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                        "normal_damping": 1, "tangential_damping": 1)";
+    text.bodies = box("floor", -10, -1, 190, 0, R"("fixed": true)") + ", " + box("block", 0, 0, 1, 1) + ", " +
+                  box("platen", -0.1, 1, 1.1, 1.1, R"("drive": {"x": 0, "y": -0.001, "rotation": 0})") + far;
+    text.time = R"({"end": 0.002})";
+    return run_to_end(text).summary().steps;
+  };
+  const auto alone = steps("");
+  CHECK(alone > 100);
+  CHECK(steps((", " + box("far", 60, 0, 120, 40)).c_str()) == alone);
+}

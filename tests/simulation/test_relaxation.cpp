@@ -201,3 +201,21 @@ TEST_CASE("what is viscous is no stiffness to adaptive damping, and is booked fr
     }
   }
 }
+
+TEST_CASE("friction that lets go where kinetic damping takes velocities is booked",
+          "[simulation][relaxation]") {
+  // Without the dashpot, at rest, the block bears less friction than it had a moment before.
+  for (const char* law : {"overlap_area", "vertex_edge"}) {
+    INFO(law);
+    WorkingScene text;
+    text.law = law;
+    text.gravity = "[0, -10]";
+    text.bodies = box("table", -3, -1, 3, 0, R"("fixed": true)") + ", " + box("a", 0, 0, 1, 1);
+    text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                        "normal_damping": 2, "tangential_damping": 0)";
+    text.rest =
+        R"("damping": "kinetic", "loads": [{"body": "a", "point": [0.5, 0.5], "force": [11500, 0]}],)";
+    text.time = R"({"end": 0.1})";
+    CHECK(residual_share(run_to_end(text).ledger()) < 0.012);
+  }
+}

@@ -30,9 +30,10 @@ struct Boundaries {
       is_strip;               ///< [piece] 1: a strip behind one side of a body of many elements, side 0 of
                               ///< the piece; the other sides are internal. Both ends of side 0 carry contact
   const double* clear_depth;  ///< [piece] m, so deep only sides that share a corner compete for a point
-  /// [2 * corner] how far the boundary goes on straight past the cut at the start, and past that at the end,
-  /// of the side that starts there, as a share of its length: for the piece beyond may not be listed. Of a
-  /// side that is turned inwards by θ < 45° cos 2θ counts. 0 where there is no cut; null where no body has any.
+  /// [4 * corner] how far the boundary goes on straight past the cut at the start, and past that at the end,
+  /// of the side that starts there, as a share of its length: for the piece beyond may not be listed. Then,
+  /// for start and end, what an edge that lies flat on the side spans beyond that: sides turned inwards by θ
+  /// < 45°, of which cos 2θ counts. 0 where there is no cut; null where no body has any.
   const double* straight_beyond;
 };
 

@@ -16,7 +16,7 @@ class Piece {
         first_(boundaries.piece_start[piece]),
         size_(boundaries.piece_start[piece + 1] - first_),
         beyond_(boundaries.straight_beyond == nullptr ? nullptr
-                                                      : boundaries.straight_beyond + std::size_t{2} * first_),
+                                                      : boundaries.straight_beyond + std::size_t{4} * first_),
         offset_(offset),
         is_strip_(boundaries.is_strip[piece] != 0),
         load_start(first_load) {}
@@ -35,12 +35,11 @@ class Piece {
   Point normal(std::uint32_t side) const { return {tangent(side).y, -tangent(side).x}; }  ///< outward
   double length(std::uint32_t side) const { return corner(side).length; }
   /// m, how far the boundary goes on straight past the cut before or after a side; 0 where there is none.
-  double straight_before(std::uint32_t side) const {
-    return beyond_ == nullptr ? 0 : beyond_[2 * side] * length(side);
-  }
-  double straight_after(std::uint32_t side) const {
-    return beyond_ == nullptr ? 0 : beyond_[2 * side + 1] * length(side);
-  }
+  double straight_before(std::uint32_t side) const { return beyond(side, 0); }
+  double straight_after(std::uint32_t side) const { return beyond(side, 1); }
+  /// m, what an edge that lies flat on a side spans beyond that, where the boundary turns inwards.
+  double spanned_before(std::uint32_t side) const { return beyond(side, 2); }
+  double spanned_after(std::uint32_t side) const { return beyond(side, 3); }
   std::uint32_t surface(std::uint32_t side) const { return corner(side).surface; }
   std::uint32_t cut(std::uint32_t side) const { return corner(side).cut; }
   bool is_cut(std::uint32_t side) const { return surface(side) == internal_side; }
@@ -105,6 +104,9 @@ class Piece {
 
  private:
   const BoundaryCorner& corner(std::uint32_t i) const { return corners_[i]; }
+  double beyond(std::uint32_t side, std::uint32_t which) const {
+    return beyond_ == nullptr ? 0 : beyond_[4 * side + which] * length(side);
+  }
 
   const BoundaryCorner* corners_ = nullptr;
   std::uint32_t first_ = 0, size_ = 0;
