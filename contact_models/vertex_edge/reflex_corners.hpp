@@ -49,7 +49,8 @@ struct CornerShare {
 /// on both.
 inline CornerShare share_in_corner(std::span<const PiecePairGeometry> pieces, const CornerContact& p,
                                    const CornerContact& q) {
-  // Ends of a strip bear with its neighbours, which share what they stand on as they bend.
+  // Not the ends of strips: with shares a block of many elements that slid over bends of 10° missed 2.9 % of
+  // its energy, without them 0.02 %.
   if (pieces[p.entry].piece[p.vertex_body].is_strip()) return {};
   const bool leads_on = leads(pieces, p, q);
   if (!(leads_on || leads(pieces, q, p)) || !(p.depth > 0 && q.depth > 0)) return {};
