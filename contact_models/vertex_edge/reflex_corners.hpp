@@ -36,10 +36,10 @@ inline double flatness(Point edge, Point side) {
   return cosine > 0 ? std::max(0.0, 2 * cosine * cosine - 1) : 0;
 }
 
-/// How much of its spring a vertex has on one face of a reflex corner, and what part of that on its own
-/// length.
+/// How much of its spring a vertex has on one face of a reflex corner, and what part of that goes by the
+/// length of the other face.
 struct CornerShare {
-  double all = 1, own = 1;
+  double all = 1, lent = 0;
 };
 
 /// On the one face, `p`, beside the other, `q`. A vertex is held by the nearest point of the boundary, with
@@ -64,11 +64,13 @@ inline CornerShare share_in_corner(std::span<const PiecePairGeometry> pieces, co
                       flatness(p.before, leads_on ? along_q : along_p) *
                       std::clamp(2 + past_q / beside, 0.0, 1.0);
   const double all = both + (1 - both) * nearest;
-  return {all, nearest < 1 && all > 0 ? both / all : 1};
+  if (!(all > 0)) return {0, 0};
+  return {all,
+          (1 - both) * nearest / all * std::min(1.0, 4 * (1 - nearest))};  // none where it leaves the wedge
 }
 
 /// Of a vertex that is found on both faces of a reflex corner. What the corner holds goes by the longer of
-/// the stretches that its edge faces of the two.
+/// the stretches that its edge faces of the two, as far as the edge lies flat there; a tip faces none.
 inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
   for (CornerContact& contact : found) {
     contact.in_corner = contact.tributary;
@@ -76,7 +78,9 @@ inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector
       if (other.key != contact.key || &other == &contact) continue;
       const CornerShare share = share_in_corner(pieces, contact, other);
       contact.share *= share.all;
-      contact.in_corner += (1 - share.own) * std::max(0.0, other.tributary - contact.tributary);
+      const Point along = pieces[other.entry].piece[1 - other.vertex_body].tangent(other.side);
+      const double flat = std::max(flatness(other.before, along), flatness(other.after, along));
+      contact.in_corner += share.lent * flat * std::max(0.0, other.tributary - contact.tributary);
     }
   }
   std::erase_if(found, [](const CornerContact& contact) { return contact.share == 0; });

@@ -51,6 +51,15 @@ TEST_CASE("a vertex that comes to stand on a third face of a bowl stays on the o
   CHECK(jump < 0.05);
 }
 
+TEST_CASE("a tip that leaves a reflex corner for one of its faces feels no jump", "[laws][vertex_edge]") {
+  const auto [jump, force] = jump_of(
+      "[-2, -1.5], [2, -1.5], [2, 1.05], [1, 1.05], [0.825, 0.819], [0.462, 0.497], [0.208, 0.413], "
+      "[-0.24, 0.421], [-0.554, 0.586], [-0.807, 0.776], [-1, 1.05], [-2, 1.05]",
+      "[0.5233, 0.5519], [1.1104, 2.4638], [0.5456, 2.5518]", 0.3);
+  CHECK(force > 1e6);
+  CHECK(jump < 0.1);
+}
+
 TEST_CASE("a vertex sinks further than to the cut that ends on its edge", "[laws][vertex_edge]") {
   const auto [jump, force] =
       jump_of("[-3, -2], [3, -2], [3, 0.3], [-3, 0.3]",
