@@ -46,17 +46,6 @@ double area_of(const Loops& loops) {
                          [](double sum, const Ring& ring) { return sum + signed_area(ring); });
 }
 
-double perimeter_of(const Loops& loops) {
-  double sum = 0;
-  for (const Ring& ring : loops) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      sum += std::hypot(b.x - a.x, b.y - a.y);
-    }
-  }
-  return sum;
-}
-
 /// What lies within the domain, of voids, too.
 std::vector<Block> faces_within(const Block& domain, const GEOSGeometry& lines, double grid,
                                 const Geos& geos) {

@@ -63,14 +63,7 @@ class Slack {
   /// A fifth of that by which neighbours may overlap and count as touching, overlapping_bodies.
   static constexpr double share_of_width = 2e-7;
 
-  static double width_of(const Block& block) {
-    double perimeter = 0;
-    for (const Ring& ring : block.loops) {
-      for (std::size_t i = 0; i < ring.size(); ++i)
-        perimeter += distance(ring[i], ring[(i + 1) % ring.size()]);
-    }
-    return 2 * block.area / perimeter;
-  }
+  static double width_of(const Block& block) { return 2 * block.area / perimeter_of(block.loops); }
 
   double most_;
   std::map<std::pair<double, double>, double> narrow_;  ///< of the vertices of thin blocks
@@ -168,6 +161,14 @@ void orient(Block& block) {
   block.centroid = {about.x + all.x / all.area, about.y + all.y / all.area};
 }
 
+double perimeter_of(const Loops& loops) {
+  double sum = 0;
+  for (const Ring& ring : loops) {
+    for (std::size_t i = 0; i < ring.size(); ++i) sum += distance(ring[i], ring[(i + 1) % ring.size()]);
+  }
+  return sum;
+}
+
 void sort_blocks(std::vector<Block>& blocks, double same) {
   const auto key = [same](const Block& block) {
     return std::tuple(std::round(block.centroid.x / same), std::round(block.centroid.y / same), block.area);
@@ -184,9 +185,8 @@ void split_quadrilaterals(std::vector<Block>& blocks, double share, std::uint64_
                           double thinnest) {
   const auto is_small = [&](const Ring& half) {
     const double area = signed_area(half);
-    const double perimeter =
-        distance(half[0], half[1]) + distance(half[1], half[2]) + distance(half[2], half[0]);
-    return area < all_but_rounding * smallest || 2 * area < all_but_rounding * thinnest * perimeter;
+    return area < all_but_rounding * smallest ||
+           2 * area < all_but_rounding * thinnest * perimeter_of({half});
   };
   const std::size_t count = blocks.size();
   for (std::size_t i = 0; i < count; ++i) {

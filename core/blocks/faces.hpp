@@ -10,6 +10,9 @@ namespace talus {
 /// count as equal, so that it does not decide.
 constexpr double all_but_rounding = 1 - 1e-7;
 
+/// m, of all rings.
+double perimeter_of(const Loops& loops);
+
 /// Merges faces below `smallest` (m²) or thinner than `thinnest` (m) into neighbours as cut_domain says.
 /// Faces that touch have the same vertices along their common boundary. Areas must be set.
 std::vector<Block> merge_small_faces(std::vector<Block> faces, double smallest, double thinnest,
