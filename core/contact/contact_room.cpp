@@ -5,9 +5,6 @@
 namespace talus {
 namespace {
 
-/// With more, what laws keep of them comes from further away than it takes to find it out anew.
-constexpr std::size_t most_planned_pairs = 32768;
-
 /// Slots for a pair that asked for more than it has. Convex bodies mostly have one contact for good.
 std::uint32_t room_for(const BodyPair& pair, std::uint32_t contacts) {
   return pair.slot_capacity == 0 && pair.plain() ? contacts : 2 * contacts;
@@ -18,9 +15,7 @@ std::uint32_t room_for(const BodyPair& pair, std::uint32_t contacts) {
 /// After ContactSlots::close_up(), and where pairs were divided into batches.
 void ContactStage::lay_out_slots() {
   ++layout_;
-  if (pairs_.size() > most_planned_pairs) plans_.clear();
-  while (pairs_.size() <= most_planned_pairs && plans_.size() + 1 < batch_begin_.size())
-    plans_.emplace_back(law_->make_plan());
+  while (plans_.size() + 1 < batch_begin_.size()) plans_.emplace_back(law_->make_plan());
   slots_.lay_out(pairs_, batch_begin_);
   size_workspaces();
 }

@@ -22,6 +22,9 @@ constexpr double clear_share = 0.8;
 /// Of near_: m, by which places may be off by rounding, and gaps so much smaller than a law says.
 constexpr double rounding_share = 1e-9;
 
+/// What a step looks up of more pairs is no longer in the cache that is nearest to a core.
+constexpr std::size_t most_near_pairs = 4096;
+
 void noop(void* /*object*/) noexcept {}
 
 /// [surface class] the first that meets all others at the same interfaces.
@@ -264,6 +267,7 @@ void ContactStage::ask_about(const Model& model, const MotionState& motion, cons
                              const Each& each) {
   const std::size_t begin = batch_begin_[batch], slot = slots_.first_of(batch);
   loads_.expect();
+  if (pairs_.size() > most_near_pairs) fetch_ahead(motion, begin, slot, {found.active.data(), count});
 #ifdef TALUS_AUDIT
   const double poison = std::numeric_limits<double>::quiet_NaN();
   std::fill(found.history.begin(), found.history.end(), poison);
@@ -288,6 +292,24 @@ void ContactStage::ask_about(const Model& model, const MotionState& motion, cons
                          conditions.observed && slots_.keeps_reports() ? slots_.reports(slot) : nullptr,
                          found.reports.data()});
   each(batch, std::span<const std::uint32_t>(found.active).first(count), found);
+}
+
+/// Pairs, their history and their corners lie scattered, so that a law would wait for one after the other.
+/// The corners of body a mostly come with an earlier pair, for pairs are sorted by it.
+void ContactStage::fetch_ahead(const MotionState& motion, std::size_t begin, std::size_t slot,
+                               std::span<const std::uint32_t> active) const {
+  constexpr std::size_t pairs_before = 12;
+  constexpr std::uint32_t most_corners = 4;
+  const BodyPair* const pairs = pairs_.data() + begin;
+  const double* const history = slots_.history(slot);
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    if (k + pairs_before < active.size()) __builtin_prefetch(pairs + active[k + pairs_before]);
+    const BodyPair& pair = pairs[active[k]];
+    if (!pair.plain()) continue;
+    __builtin_prefetch(history + std::size_t{pair.slot_start} * slots_.doubles());
+    const BoundaryCorner* const corner = motion.corners.data() + pair.corner_start[1];
+    for (std::uint32_t i = 0; i < most_corners; ++i) __builtin_prefetch(corner + i);
+  }
 }
 
 /// What the law found becomes what it is told of the previous step next time, while it is at hand. A pair

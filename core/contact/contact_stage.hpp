@@ -160,6 +160,8 @@ class ContactStage {
   template <class Each>
   void ask_about(const Model& model, const MotionState& motion, const Conditions& conditions,
                  std::size_t batch, std::uint32_t count, bool all, Workspace& found, const Each& each);
+  void fetch_ahead(const MotionState& motion, std::size_t begin, std::size_t slot,
+                   std::span<const std::uint32_t> active) const;
   void close(const Model& model, std::size_t batch, std::span<const std::uint32_t> active, Workspace& found);
   static void note_short_of_room(std::size_t pair, std::uint32_t in_batch, Workspace& found) {
     append_to(found.short_of_room, {static_cast<std::uint32_t>(pair), found.reports[in_batch].contact_count});

@@ -314,6 +314,9 @@ inline void add_to_small(const double* reference_x, const double* reference_y, c
   }
 }
 
+/// Bodies of a wave lie scattered: what is looked up of them is fetched so many before its turn.
+constexpr std::ptrdiff_t bodies_ahead = 8;
+
 double add_loads(const GatheredLoads& given, const double* reference_x, const double* reference_y,
                  BodyForce* forces, std::size_t begin, std::size_t end) {
   const GatheredLoads loads = given;  // which no store below can change
@@ -321,6 +324,12 @@ double add_loads(const GatheredLoads& given, const double* reference_x, const do
   Quad all_small{};
   const BodyLoads* const last = loads.bodies + end;
   for (const BodyLoads* body = loads.bodies + begin; body != last; ++body) {
+    if (last - body > bodies_ahead) {
+      const BodyLoads& next = body[bodies_ahead];
+      __builtin_prefetch(&forces[next.body], 1);
+      __builtin_prefetch(reference_x + next.corner_begin);
+      __builtin_prefetch(reference_y + next.corner_begin);
+    }
     if (loads.still != nullptr && loads.still[body->body] != 0) continue;
     const double *x = reference_x + body->corner_begin, *y = reference_y + body->corner_begin;
     BodyForce& force = forces[body->body];

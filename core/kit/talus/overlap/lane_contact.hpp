@@ -34,7 +34,6 @@ class LaneContact {
       if (at.contact_count == 1) {
         const double* old = batch.history + std::size_t{at.slot_start} * friction_doubles;
         if (old[7] > 0) {
-          fetch_ahead(batch.boundaries.corner + at.corner_start[1]);
           add_touching(at, TouchingPair::remembered(pair, old[7]));
           return;
         }
@@ -60,19 +59,13 @@ class LaneContact {
   }
 
  private:
-  using Groups = std::vector<LaneGroup<corners>>;
+  using Groups = std::vector<LaneSeats>;
 
   /// For all pairs that were added, should they touch one day: lanes that are left are taken again.
   void make_room(Groups& groups) const {
     constexpr std::size_t not_full = 64;  // a few in each step until all are sorted anew
     const std::size_t added = pairs_.size() + touching_count_[0] + touching_count_[1];
     if (added > 0) groups.reserve(added / lanes + not_full);
-  }
-
-  /// Corners lie far from those of the pair before, in scenes that no cache holds. Those of body a mostly
-  /// came with an earlier pair, for pairs are sorted by it.
-  static void fetch_ahead(const BoundaryCorner* corner) {
-    for (int i = 0; i < 4; ++i) __builtin_prefetch(corner + i);
   }
 
   void sieve_all(const ContactBatch& batch, const ContactLoads& loads) {
@@ -95,16 +88,17 @@ class LaneContact {
       }
     }
     bool emptied = false;
-    for (LaneGroup<corners>& group : groups) {
-      evaluate_group(law, batch, loads, group, &plan, general);
-      emptied = emptied || group.live == 0;
+    for (std::size_t at = 0; at < groups.size(); ++at) {
+      if (at + 1 < groups.size()) groups[at + 1].fetch_ahead(batch);
+      evaluate_group(law, batch, loads, groups[at], &plan, general);
+      emptied = emptied || groups[at].live == 0;
     }
-    if (emptied) std::erase_if(groups, [](const LaneGroup<corners>& group) { return group.live == 0; });
+    if (emptied) std::erase_if(groups, [](const LaneSeats& group) { return group.live == 0; });
   }
 
   static bool fill_lane(const ContactBatch& batch, const TouchingPair& touching, Groups& groups) {
     return std::any_of(groups.begin(), groups.end(),
-                       [&](LaneGroup<corners>& group) { return group.take_in(batch, touching); });
+                       [&](LaneSeats& group) { return group.take_in(batch, touching); });
   }
 
   template <class General>
@@ -116,8 +110,8 @@ class LaneContact {
       touching_count_[averaged] = 0;
       sort_by_pattern(touching, count);
       for (std::size_t i = 0; i < count; i += lanes) {
-        LaneGroup<corners>& group =
-            plan != nullptr ? plan->template groups<corners>().emplace_back() : group_;
+        LaneSeats loose;
+        LaneSeats& group = plan != nullptr ? plan->template groups<corners>().emplace_back() : loose;
         const auto size = static_cast<int>(std::min<std::size_t>(lanes, count - i));
         group.take(batch, &touching[i], size);
         for (int lane = 0; plan != nullptr && lane < size; ++lane) plan->seat(group.pair[lane]);
@@ -181,9 +175,10 @@ class LaneContact {
   }
 
   template <class General>
-  void evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads,
-                      LaneGroup<corners>& group, LanePlan* plan, const General& general) {
-    const LaneBits unserved = lanes_.evaluate(law, batch, loads, group);
+  void evaluate_group(const Law& law, const ContactBatch& batch, const ContactLoads& loads, LaneSeats& group,
+                      LanePlan* plan, const General& general) {
+    group_.open(batch, group);
+    const LaneBits unserved = lanes_.evaluate(law, batch, loads, group_);
     each_lane(unserved, [&](int lane) {
       const std::uint32_t pair = group.pair[lane];
       if (plan != nullptr) plan->unseat(pair);
@@ -194,7 +189,7 @@ class LaneContact {
       }
     });
     group.live &= ~unserved;
-    group.unseen = group.remembered = all_lanes;
+    group.unseen = all_lanes;
   }
 
   std::vector<std::uint32_t> pairs_;
@@ -202,7 +197,7 @@ class LaneContact {
   std::size_t touching_count_[2] = {0, 0};
   std::vector<TouchingPair> sorted_;
   LaneSieve<corners> sieve_;
-  LaneGroup<corners> group_;  ///< of pairs that keep no lanes
+  LaneGroup<corners> group_;
   LaneLoads<Law, corners> lanes_;
 };
 

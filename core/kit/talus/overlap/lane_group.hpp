@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 
 namespace talus::overlap {
 inline namespace TALUS_SIMD_LEVEL {
@@ -49,52 +50,129 @@ inline void each_lane(LaneBits bits, const Visit& visit) {
   }
 }
 
-/// Pairs that go through the lanes together, a lane each, for as long as the host's arrays stay as they are.
-/// Piece 0 is the master, where only one is.
-template <int corners>
-struct LaneGroup {
-  LaneBits live;        ///< lanes that stand for a pair
-  LaneBits unseen;      ///< nobody has looked in this step whether the pieces overlap
-  LaneBits remembered;  ///< in contact a step ago
-  LaneBits swapped;     ///< piece 0 is that of body b
-  bool averaged;        ///< both roles count half
-  bool alike;           ///< all have one interface
-  int sides[2];         ///< LanePlaces::sides()
-  LanePlaces places[2];
-  std::uint32_t pair[lanes];                            ///< in the batch
-  std::uint32_t slot[lanes];                            ///< of its contact
-  std::uint32_t interface_row[lanes];                   ///< Interfaces::row
-  alignas(64) double offset_x[lanes], offset_y[lanes];  ///< m, of the piece of body b
-  alignas(64) double reduced_mass[lanes], clear_depth[lanes];
-  alignas(64) double starts[lanes];  ///< code without pattern, as TouchingPair::remembered() reads it
-
-  /// m, to be added to the places of a piece.
-  Packs2 offset(int piece) const {
-    const Mask of_b = simd::mask_of(piece == 0 ? swapped : all_lanes & ~swapped);
-    return {simd::only_where(of_b, simd::load(offset_x)), simd::only_where(of_b, simd::load(offset_y))};
-  }
+/// Which pairs go through the lanes together, a lane each, for as long as the host's arrays stay as they are:
+/// all that is kept of them, for in large scenes what is kept comes from far in every step.
+struct LaneSeats {
+  std::uint32_t pair[lanes];     ///< in the batch
+  std::uint8_t start[2][lanes];  ///< the corner of body a and of b that is called 0
+  std::uint8_t sides[2];         ///< of the pieces, as sides_of() tells; the first is the master
+  bool averaged;                 ///< both roles count half
+  LaneBits live;                 ///< lanes that stand for a pair
+  LaneBits unseen;               ///< nobody has looked in this step whether the pieces overlap
 
   /// Fills all lanes, those beyond the `count`-th pair with the first.
   void take(const ContactBatch& batch, const TouchingPair* touching, int count) {
-    live = unseen = remembered = swapped = 0;
     averaged = touching[0].averaged(batch);
-    for (int lane = 0; lane < lanes; ++lane) place(batch, touching[lane < count ? lane : 0], lane);
+    unseen = 0;
+    std::uint32_t corners[2][lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const TouchingPair& at = touching[lane < count ? lane : 0];
+      place(at, lane);
+      for (int piece = 0; piece < 2; ++piece) corners[piece][lane] = corners_of(batch.pairs[at.pair], piece);
+    }
+    for (int piece = 0; piece < 2; ++piece)
+      sides[piece] = static_cast<std::uint8_t>(sides_of(corners[piece]));
     live = (1u << count) - 1;
-    compare();
   }
 
   /// Puts a pair into a lane that stands for none, if it is of the shape of the others.
   bool take_in(const ContactBatch& batch, const TouchingPair& touching) {
     if (live == all_lanes || touching.averaged(batch) != averaged) return false;
-    const BodyPair& at = batch.pairs[touching.pair];
-    for (int p = 0; p < 2; ++p) {
-      if (sides[p] != mixed &&
-          at.plain_corners[at.master_share() == 0 ? 1 - p : p] != static_cast<std::uint32_t>(sides[p]))
+    for (int piece = 0; piece < 2; ++piece) {
+      if (sides[piece] != mixed && corners_of(batch.pairs[touching.pair], piece) != sides[piece])
         return false;
     }
-    place(batch, touching, std::countr_one(live));
-    compare();
+    const int lane = std::countr_one(live);
+    place(touching, lane);
+    live |= 1u << lane;
     return true;
+  }
+
+  /// Where the corners are is looked up in the pairs, so that a group would wait for one and then the other.
+  void fetch_ahead(const ContactBatch& batch) const {
+    for (const std::uint32_t number : pair) __builtin_prefetch(batch.pairs + number);
+  }
+
+ private:
+  static std::uint32_t corners_of(const BodyPair& pair, int piece) {
+    return pair.plain_corners[pair.master_halves == 0 ? 1 - piece : piece];
+  }
+
+  void place(const TouchingPair& touching, int lane) {
+    pair[lane] = touching.pair;
+    for (int body = 0; body < 2; ++body) start[body][lane] = static_cast<std::uint8_t>(touching.start(body));
+    unseen = (unseen & ~(1u << lane)) | (touching.unseen() ? 1u : 0u) << lane;
+  }
+};
+
+/// The pairs of a group, with all that the lanes read of them. Piece 0 is the master, where only one is.
+template <int corners>
+struct LaneGroup {
+  LaneBits live;        ///< lanes that stand for a pair
+  LaneBits remembered;  ///< in contact a step ago
+  LaneBits swapped;     ///< piece 0 is that of body b
+  bool averaged;        ///< both roles count half
+  bool alike;           ///< all have one interface
+  int sides[2];         ///< sides_of()
+  LanePlaces places[2];
+  std::uint32_t pair[lanes];       ///< in the batch
+  Numbers slot;                    ///< of its contact
+  Numbers interface_row;           ///< Interfaces::row
+  Packs2 offset_of_b;              ///< m, of the piece of body b
+  Pack reduced_mass, clear_depth;  ///< kg/m, m
+  Pack starts;                     ///< code without pattern, as TouchingPair::remembered() reads it
+
+  static_assert(sizeof(BodyPair) == 8 * sizeof(double) && offsetof(BodyPair, offset_x) == 8 &&
+                offsetof(BodyPair, reduced_mass) == 24 && offsetof(BodyPair, clear_depth) == 28 &&
+                offsetof(BodyPair, slot_start) == 32 && offsetof(BodyPair, contact_count) == 40 &&
+                offsetof(BodyPair, plain_corners) == 44 && offsetof(BodyPair, master_halves) == 46 &&
+                offsetof(BodyPair, corner_start) == 48 && offsetof(BodyPair, load_start) == 56 &&
+                offsetof(BodyPair, interface_row) == 60);
+  /// Looks up the pairs, a row of eight doubles each.
+  void open(const ContactBatch& batch, const LaneSeats& seats) {
+    live = seats.live;
+    averaged = seats.averaged;
+    for (int piece = 0; piece < 2; ++piece) sides[piece] = seats.sides[piece];
+    const double* from[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      pair[lane] = seats.pair[lane];
+      from[lane] = reinterpret_cast<const double*>(batch.pairs + pair[lane]);
+    }
+    Pack column[8];
+    simd::gather_rows(from, column);
+    simd::gather_rows(from, column + 4, 4);
+    offset_of_b = {column[1], column[2]};
+    Numbers low, high, capacity, shape;
+    simd::split(column[3], low, high);
+    reduced_mass = simd::floats(low);
+    clear_depth = simd::floats(high);
+    simd::split(column[4], slot, capacity);
+    simd::split(column[5], low, shape);
+    remembered = simd::bits(simd::doubles(low) > 0.0);
+    const Numbers halves = shape >> 16, count[2] = {shape & 0xFF, shape >> 8 & 0xFF};
+    swapped = simd::bits(simd::doubles(halves) <= 0.0);
+    Numbers first[2], load[2];
+    simd::split(column[6], first[0], first[1]);
+    simd::split(column[7], load[0], interface_row);
+    // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
+    load[1] = load[0] + count[0];
+    Numbers start[2];
+    for (int body = 0; body < 2; ++body) start[body] = simd::numbers(seats.start[body]);
+    starts = simd::doubles(1 + start[0] + 8 * start[1]);
+    for (int piece = 0; piece < 2; ++piece) {
+      const auto of = [&](const Numbers* body) { return halves == 0 ? body[1 - piece] : body[piece]; };
+      places[piece].first = of(first);
+      places[piece].load_shift = of(load) - of(first);
+      places[piece].start = of(start);
+      places[piece].count = of(count);
+    }
+    alike = !simd::any(simd::doubles(interface_row ^ interface_row[0]) > 0.0);
+  }
+
+  /// m, to be added to the places of a piece.
+  Packs2 offset(int piece) const {
+    const Mask of_b = simd::mask_of(piece == 0 ? swapped : all_lanes & ~swapped);
+    return {simd::only_where(of_b, offset_of_b.x), simd::only_where(of_b, offset_of_b.y)};
   }
 
   /// Loads of the lanes of `wanted` on their corners, from those on both pieces.
@@ -111,40 +189,6 @@ struct LaneGroup {
   }
 
  private:
-  void place(const ContactBatch& batch, const TouchingPair& touching, int lane) {
-    const BodyPair& at = batch.pairs[touching.pair];
-    const bool swap = at.master_share() == 0;
-    const auto mark = [&](LaneBits& bits, bool is_so) {
-      bits = (bits & ~(1u << lane)) | (is_so ? 1u : 0u) << lane;
-    };
-    mark(live, true);
-    mark(unseen, touching.unseen());
-    mark(remembered, at.contact_count != 0);
-    mark(swapped, swap);
-    pair[lane] = touching.pair;
-    slot[lane] = at.slot_start;
-    interface_row[lane] = at.interface_row;
-    for (int body = 0; body < 2; ++body) {
-      const int piece = swap ? 1 - body : body;
-      // Of a pair of bodies that are one piece each, the first has its loads before those of the second.
-      const std::uint32_t load_start = at.load_start + (body == 0 ? 0U : at.plain_corners[0]);
-      places[piece].load_shift[lane] = load_start - at.corner_start[body];
-      places[piece].place(lane, at.corner_start[body], at.plain_corners[body], touching.start(body));
-    }
-    offset_x[lane] = at.offset_x;
-    offset_y[lane] = at.offset_y;
-    reduced_mass[lane] = at.reduced_mass;
-    clear_depth[lane] = at.clear_depth;
-    starts[lane] = 1 + touching.start(0) + 8 * touching.start(1);
-  }
-
-  void compare() {
-    for (int p = 0; p < 2; ++p) sides[p] = places[p].sides();
-    std::uint32_t other = 0;
-    for (const std::uint32_t row : interface_row) other |= row ^ interface_row[0];
-    alike = other == 0;
-  }
-
   /// Of lanes that all have three or four corners.
   template <int sides>
   static void write_alike(const ContactLoads& loads, LaneBits wanted, const LaneRows<corners>& rows,

@@ -39,7 +39,7 @@ class LaneLoads {
     const Pack share = g.averaged ? 0.5 : 1.0;
     roles_ = g.averaged ? 2 : 1;
     Mask refused = piece_[0].degenerate | piece_[1].degenerate;
-    const Pack stiffness = share * interface.normal_stiffness, clear_depth = simd::load(g.clear_depth);
+    const Pack stiffness = share * interface.normal_stiffness, clear_depth = g.clear_depth;
     const bool damped = simd::any(interface.normal_damping > 0.0);
     cells_[0].template find<sides, other_sides>(piece_[0], piece_[1], stiffness, clear_depth, damped);
     if (g.averaged)
@@ -139,7 +139,7 @@ class LaneLoads {
     const Closing closing{
         simd::only_where(contact_length_ > 0.0, share * 2.0 * interface.normal_damping *
                                                     simd::sqrt(interface.normal_stiffness *
-                                                               simd::load(g.reduced_mass) / contact_length_)),
+                                                               g.reduced_mass / contact_length_)),
         sliding.origin,
         -simd::dot(normal, sliding.velocity),
         {-simd::dot(normal, sliding.by_x), -simd::dot(normal, sliding.by_y)}};
@@ -324,7 +324,7 @@ class LaneLoads {
     report.tangential = elastic;
     if (simd::any(interface.tangential_damping > 0.0)) {
       const Pack viscosity =
-          2.0 * interface.tangential_damping * simd::sqrt(stiffness * simd::load(g.reduced_mass));
+          2.0 * interface.tangential_damping * simd::sqrt(stiffness * g.reduced_mass);
       const Pack damped = simd::clamp(elastic - viscosity * slip, -bound, bound);
       report.tangential =
           simd::select(holds & !slips & (interface.tangential_damping > 0.0), damped, elastic);
@@ -381,7 +381,7 @@ class LaneLoads {
       const Pack first[4] = {report.elastic, report.tangential, report.spring_energy, contact_length_};
       simd::scatter_rows(first, row);
       const Pack second[4] = {report.foot.x, report.foot.y, report.slip,
-                              TouchingPair::pattern_unit * cells_[0].pattern + simd::load(g.starts)};
+                              TouchingPair::pattern_unit * cells_[0].pattern + g.starts};
       simd::scatter_rows(second, second_row);
     }
     if (loads.reports != nullptr) write_contacts<other_sides>(loads, g, report, wanted);

@@ -23,26 +23,26 @@ constexpr int corners_of(int sides, int corners) {
   return sides == mixed ? corners : sides;
 }
 
-/// Where a piece is in the host's array, a piece in each lane, in few bytes: lanes of a large scene come from
-/// far in every step.
+/// 3 or 4 if all lanes have so many corners [lane], else mixed.
+template <class Count>
+inline int sides_of(const Count& count) {
+  std::uint32_t other = 0;
+  for (int lane = 1; lane < lanes; ++lane) other |= count[lane] ^ count[0];
+  return other != 0 || count[0] > 4 ? mixed : static_cast<int>(count[0]);
+}
+
+/// Where a piece is in the host's array, a piece in each lane.
 struct LanePlaces {
-  Numbers first;              ///< corner of all that is corner 0 of the piece
-  Numbers load_shift;         ///< from its corners to their loads
-  std::uint8_t start[lanes];  ///< the corner of the piece that is called 0 here
-  std::uint8_t count[lanes];  ///< of corners
+  Numbers first;       ///< corner of all that is corner 0 of the piece
+  Numbers load_shift;  ///< from its corners to their loads
+  Numbers start;       ///< the corner of the piece that is called 0 here
+  Numbers count;       ///< of corners
 
   void place(int lane, std::uint32_t first_corner, std::uint32_t corner_count,
              std::uint32_t start_corner = 0) {
     first[lane] = first_corner;
-    start[lane] = static_cast<std::uint8_t>(start_corner);
-    count[lane] = static_cast<std::uint8_t>(corner_count);
-  }
-
-  /// 3 or 4 if all lanes have so many, else mixed.
-  int sides() const {
-    std::uint32_t other = 0;
-    for (int lane = 1; lane < lanes; ++lane) other |= count[lane] ^ count[0];
-    return other != 0 || count[0] > 4 ? mixed : count[0];
+    start[lane] = start_corner;
+    count[lane] = corner_count;
   }
 };
 
@@ -58,18 +58,17 @@ struct LaneRows {
   void lay_out(const LanePlaces& at) {
     constexpr std::uint32_t doubles = sizeof(BoundaryCorner) / sizeof(double),
                             doubles_of_load = sizeof(CornerLoad) / sizeof(double);
-    Numbers turn = simd::numbers(at.start);
-    const Numbers count = simd::numbers(at.count);
+    Numbers turn = at.start;
     for (int i = 0; i < corners_of(sides, corners); ++i) {
       row[i] = (at.first + turn) * doubles;
       load[i] = (at.first + turn + at.load_shift) * doubles_of_load;
       turn += 1;
-      turn = turn == count ? Numbers{} : turn;
+      turn = turn == at.count ? Numbers{} : turn;
     }
     if constexpr (sides == mixed) {
       for (int i = 0; i < corners; ++i) {
         real[i] = 0;
-        for (int lane = 0; lane < lanes; ++lane) real[i] |= (i < at.count[lane] ? 1U : 0U) << lane;
+        for (int lane = 0; lane < lanes; ++lane) real[i] |= (static_cast<std::uint32_t>(i) < at.count[lane] ? 1U : 0U) << lane;
       }
     }
   }

@@ -14,7 +14,7 @@ inline namespace TALUS_SIMD_LEVEL {
 class LanePlan final : public BatchPlan {
  public:
   template <int corners>
-  std::vector<LaneGroup<corners>>& groups() {
+  std::vector<LaneSeats>& groups() {
     if constexpr (corners == 4) return quadrilaterals_;
     if constexpr (corners == 8) return octagons_;
   }
@@ -67,8 +67,8 @@ class LanePlan final : public BatchPlan {
     loose.resize(static_cast<std::size_t>(next - loose.data()));
   }
 
-  std::vector<LaneGroup<4>> quadrilaterals_;
-  std::vector<LaneGroup<8>> octagons_;
+  std::vector<LaneSeats> quadrilaterals_;
+  std::vector<LaneSeats> octagons_;
   std::vector<std::uint8_t> seated_;  ///< [pair]
   std::size_t seats_ = 0;
   std::uint32_t steps_ = 0;

@@ -32,6 +32,20 @@ struct Packs2 {
 inline Numbers numbers(const std::uint8_t* from) {
   return (Numbers)_mm_cvtepu8_epi32(_mm_loadu_si32(from));
 }
+inline Pack doubles(Numbers n) {
+  return _mm256_cvtepi32_pd((__m128i)n);
+}
+/// The numbers that are the bits of floats.
+inline Pack floats(Numbers n) {
+  return _mm256_cvtps_pd(_mm_castsi128_ps((__m128i)n));
+}
+/// The two numbers in each lane, of which lower bits come first.
+inline void split(Pack p, Numbers& low, Numbers& high) {
+  const __m256i apart =
+      _mm256_permutevar8x32_epi32(_mm256_castpd_si256(p.value), _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7));
+  low = (Numbers)_mm256_castsi256_si128(apart);
+  high = (Numbers)_mm256_extracti128_si256(apart, 1);
+}
 inline Pack load(const double* from) {
   return _mm256_loadu_pd(from);
 }

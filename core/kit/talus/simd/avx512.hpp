@@ -32,6 +32,19 @@ struct Packs2 {
 inline Numbers numbers(const std::uint8_t* from) {
   return (Numbers)_mm256_cvtepu8_epi32(_mm_loadu_si64(from));
 }
+inline Pack doubles(Numbers n) {
+  return _mm512_maskz_cvtepu32_pd(0xFF, (__m256i)n);
+}
+/// The numbers that are the bits of floats.
+inline Pack floats(Numbers n) {
+  return _mm512_maskz_cvtps_pd(0xFF, _mm256_castsi256_ps((__m256i)n));
+}
+/// The two numbers in each lane, of which lower bits come first.
+inline void split(Pack p, Numbers& low, Numbers& high) {
+  const __m512i both = _mm512_castpd_si512(p.value);
+  low = (Numbers)_mm512_maskz_cvtepi64_epi32(0xFF, both);
+  high = (Numbers)_mm512_maskz_cvtepi64_epi32(0xFF, _mm512_maskz_srli_epi64(0xFF, both, 32));
+}
 inline Pack load(const double* from) {
   return _mm512_loadu_pd(from);
 }

@@ -3,8 +3,10 @@
 // Packs of one double, for the rest of machines, and what the others are held against. Included by pack.hpp
 // alone.
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace talus::simd {
 inline namespace scalar {
@@ -29,6 +31,19 @@ struct Packs2 {
 /// As many bytes, widened.
 inline Numbers numbers(const std::uint8_t* from) {
   return Numbers{*from};
+}
+inline Pack doubles(Numbers n) {
+  return static_cast<double>(n[0]);
+}
+/// The numbers that are the bits of floats.
+inline Pack floats(Numbers n) {
+  return double{std::bit_cast<float>(std::uint32_t{n[0]})};
+}
+/// The two numbers in each lane, of which lower bits come first.
+inline void split(Pack p, Numbers& low, Numbers& high) {
+  const auto both = std::bit_cast<std::uint64_t>(p.value);
+  low = Numbers{static_cast<std::uint32_t>(both)};
+  high = Numbers{static_cast<std::uint32_t>(both >> 32)};
 }
 inline Pack load(const double* from) {
   return *from;
@@ -69,9 +84,10 @@ inline void scatter_points(Packs2 p, double* const* to) {
   to[0][0] = p.x.value;
   to[0][1] = p.y.value;
 }
-/// Four doubles in a row from a place of each lane: to[i] gets from[lane][skip + i].
+/// Four doubles in a row from a place of each lane, or what else has their size: to[i] gets
+/// from[lane][skip + i].
 inline void gather_rows(const double* const* from, Pack* to, int skip = 0) {
-  for (int i = 0; i < 4; ++i) to[i] = from[0][skip + i];
+  std::memcpy(to, from[0] + skip, 4 * sizeof *to);
 }
 /// The way back: to[lane][i] gets from[i] of that lane.
 inline void scatter_rows(const Pack* from, double* const* to) {
