@@ -23,8 +23,9 @@ double share_of(const Usage& usage, const std::string& text) {
   double share = std::strtod(text.c_str(), &end);
   const std::string rest = end;
   if (rest == "%") share /= 100;
-  if (!(share > 0) || (!rest.empty() && rest != "%"))
-    throw UsageError(usage.command, fmt::format("--error {}: give a share above 0, 1% or 0.01", text));
+  if (!(share > 0) || share > 1 || (!rest.empty() && rest != "%"))
+    throw UsageError(usage.command,
+                     fmt::format("--error {}: give a share above 0, at most 1: 1% or 0.01", text));
   return share;
 }
 
@@ -107,9 +108,12 @@ int advise_command(const Words& words) {
     fmt::print(" and about {:.2g} % of what it is measured against",
                100 * *study.findings.error_of_reference);
   fmt::print(", {:.3g} s of CPU", study.runs[*best].cpu);
-  if (study.findings.reference)
-    fmt::print(", {:.3g} times less than the run it is measured against",
-               study.runs[*study.findings.reference].cpu / study.runs[*best].cpu);
+  if (study.findings.reference) {
+    const double of_reference = study.runs[*best].cpu / study.runs[*study.findings.reference].cpu;
+    fmt::print(", {:.3g} times {} the run it is measured against",
+               of_reference < 1 ? 1 / of_reference : of_reference,
+               of_reference < 1 ? "less than" : "that of");
+  }
   fmt::print("\n");
   return exit_code::ok;
 }

@@ -3,6 +3,7 @@
 #include "text/nearest.hpp"
 
 #include <fmt/format.h>
+#include <boost/any.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -69,6 +70,12 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
   if (given.count("help") != 0) {
     print_help(usage);
     return std::nullopt;
+  }
+  for (const auto& [name, value] : given) {
+    const po::option_description* const option = usage.options.find_nothrow(name, false);
+    const auto* const text = boost::any_cast<std::string>(&value.value());
+    if (option != nullptr && option->semantic()->min_tokens() > 0 && text != nullptr && text->empty())
+      throw UsageError(usage.command, fmt::format("--{} is empty", name));
   }
   for (const std::string& argument : wanted) {
     if (!optional && given.count(argument) == 0)

@@ -71,13 +71,14 @@ void print_cost(const Scene& scene, const Preview& foreseen) {
 
 }  // namespace
 
-std::string words_of_flutter(const Preview& foreseen) {
+std::string words_of_flutter(const Scene& scene, const Preview& foreseen) {
   if (!foreseen.stiffest || foreseen.stiffest->stilling == 0) return "";
   if (!(foreseen.stiffest->share() > may_flutter * (1 + rounding))) return "";
+  const StiffnessShare& stiff = *foreseen.stiffest;
   return fmt::format(
-      "with friction and no damping_time: what slides may flutter, and be braked less than "
-      "its friction; a damping_time of about {:.1g} s stills it",
-      foreseen.stiffest->stilling);
+      "/interfaces/{} has friction and {:.3g} E/h of '{}', which has no damping_time: what slides may "
+      "flutter, and be braked less than its friction; a damping_time of about {:.1g} s stills it",
+      stiff.row, stiff.share(), scene.bodies[stiff.body].name, stiff.stilling);
 }
 
 void print_row(const std::string& label, const std::string& words) {
@@ -87,7 +88,7 @@ void print_row(const std::string& label, const std::string& words) {
 void print_preview(const Scene& scene, const Preview& foreseen) {
   print_start(scene, foreseen);
   print_stiffness(scene, foreseen);
-  if (const std::string words = words_of_flutter(foreseen); !words.empty()) print_row("", words);
+  if (const std::string words = words_of_flutter(scene, foreseen); !words.empty()) print_row("", words);
   print_cost(scene, foreseen);
   const std::string frames =
       scene.output.frames ? fmt::format("{} frames every {:.6g} s", foreseen.frames, *scene.output.frames)

@@ -10,7 +10,7 @@ namespace talus {
 void print_row(const std::string& label, const std::string& words);
 
 /// What a damping_time would still, and which one; "" where nothing of it is foreseen.
-std::string words_of_flutter(const Preview& foreseen);
+std::string words_of_flutter(const Scene& scene, const Preview& foreseen);
 
 /// What a run would be, without the warnings.
 void print_preview(const Scene& scene, const Preview& foreseen);

@@ -48,7 +48,7 @@ std::string safety_csv(const Scene& scene, const Safety& safety) {
       "moving\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
     const auto names = [&](const std::vector<std::size_t>& bodies) {
-      return fmt::format("{}", fmt::join(names_of(scene, bodies), " "));
+      return fmt::format("{}", fmt::join(names_of(scene, bodies), ";"));
     };
     const bool stopped = was_stopped(run);
     const std::string fields[] = {fmt::format("{}", run.factor),
@@ -129,7 +129,7 @@ bool has_loads_in_time(const Scene& scene) {
 void warn_of_flutter(const Simulation& simulation) {
   Preview foreseen;
   compare_stiffness(simulation, foreseen);
-  if (const std::string words = words_of_flutter(foreseen); !words.empty())
+  if (const std::string words = words_of_flutter(simulation.scene(), foreseen); !words.empty())
     print_warning(words + ", and without it the factor may come out some per cent low");
 }
 

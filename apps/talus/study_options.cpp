@@ -67,6 +67,19 @@ std::string command_of(const Usage& usage, const std::vector<std::string>& words
   return line;
 }
 
+void warn_of_no_errors(const StudyPlan& plan, const StudyFindings& findings) {
+  std::size_t first = findings.runs.size(), count = 0;
+  for (std::size_t i = findings.runs.size(); i-- > 0;) {
+    if (findings.runs[i].why_none.empty()) continue;
+    first = i;
+    ++count;
+  }
+  if (count == 0) return;
+  print_warning(fmt::format("no error of {}{}: {}; a --reference may do", plan.words(plan.points[first]),
+                            count == 1 ? "" : fmt::format(" and of {} more", count - 1),
+                            findings.runs[first].why_none));
+}
+
 }  // namespace
 
 void add_study_options(Usage& usage) {
@@ -168,6 +181,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   if (!study.findings.part.empty())
     print_warning(fmt::format("the reference goes {} and runs do not: errors are those of the time in common",
                               study.findings.part));
+  warn_of_no_errors(plan, study.findings);
   write_whole_file(study.folder / "study.csv", study_csv(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.json", study_json(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.svg", study_svg(plan, study.runs, study.findings));

@@ -154,7 +154,7 @@ class SideBySide {
   std::mutex mutex_;
 };
 
-/// The automatic step of each scene; the smallest is the common one.
+/// The automatic step of each scene. The smallest is the common one, unless the scene states another.
 void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
   double smallest = 0;
   for (std::size_t i = 0; i < order.scenes.size(); ++i) {
@@ -164,7 +164,7 @@ void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
     comparison.runs[i].own_dt = own;
     smallest = i == 0 ? own : std::min(smallest, own);
   }
-  if (!order.variation.of_time()) comparison.common_dt = smallest;
+  if (!order.variation.of_time()) comparison.common_dt = order.scenes[0].time.dt.value_or(smallest);
 }
 
 /// Column "<monitor>.<quantity> [unit]" of a tolerance, whatever the unit.
@@ -329,16 +329,18 @@ double steps_at(const Scene& scene, double dt) {
 
 /// Where nothing but the vote at the start bound the step, it bounds that of each run by itself, too.
 void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
+  const bool some_critical =
+      std::ranges::any_of(comparison.runs, [](const ComparedRun& run) { return std::isfinite(run.own_dt); });
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     ComparedRun& run = comparison.runs[i];
     if (run.result.end != RunEnd::finished) continue;
     const auto made = static_cast<double>(run.result.summary.steps);
-    if (!comparison.common_dt || !std::isfinite(*comparison.common_dt)) {
+    if (!comparison.common_dt || !some_critical) {
       run.own_steps = made;
       continue;
     }
     const Scene& scene = order.scenes[i];
-    const double due = steps_at(scene, scene.time.dt.value_or(*comparison.common_dt));
+    const double due = steps_at(scene, *comparison.common_dt);
     if (std::abs(made - due) <= 0.01 * due) {
       run.own_steps = steps_at(scene, run.own_dt);
       continue;

@@ -60,7 +60,8 @@ struct ComparedTolerance {
 
 struct Comparison {
   std::vector<ComparedRun> runs;    ///< [value]
-  std::optional<double> common_dt;  ///< s, largest step for all; none where the time settings vary
+  std::optional<double> common_dt;  ///< s, the step that the scene states, or the largest for all; none where
+                                    ///< the time settings vary
   std::vector<ColumnDeviation> deviations;
   std::vector<ComparedTolerance> tolerances;
   std::vector<std::string> warnings;

@@ -20,7 +20,12 @@ std::vector<std::string> split_values(std::string_view text) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char letter = text[i];
-    if (letter == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
+    if (quoted && letter == '\\' && i + 1 < text.size()) {
+      values.back() += letter;
+      values.back() += text[++i];
+      continue;
+    }
+    if (letter == '"') quoted = !quoted;
     if (!quoted && (letter == '[' || letter == '{')) ++depth;
     if (!quoted && (letter == ']' || letter == '}')) --depth;
     if (letter == ',' && depth == 0 && !quoted) {

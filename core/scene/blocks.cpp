@@ -182,7 +182,7 @@ class Expander {
         ends.begin(), ends.end(), [](const LooseEnd& p, const LooseEnd& q) { return p.gap < q.gap; });
     result.warnings.push_back(
         fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing "
-                    "on; the nearest, at {}, is {:.3g} m short of a line or the boundary",
+                    "on; the one nearest to another line or the boundary, at {}, is {:.3g} m from it",
                     section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", place_text(nearest.at, size),
                     nearest.gap));
   }

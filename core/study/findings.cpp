@@ -208,8 +208,18 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!finished(runs[i]) || findings.reference == i) continue;
     const auto own = runs[i].history.column(column);
-    if (!own) continue;
-    if (!reference && !(covers(due, runs[i].history) && covers(runs[i].history, due))) continue;
+    if (!own) {
+      findings.runs[i].why_none = "it has no such column";
+      continue;
+    }
+    if (!reference && !(covers(due, runs[i].history) && covers(runs[i].history, due))) {
+      const Series& history = runs[i].history;
+      findings.runs[i].why_none =
+          fmt::format("it goes from {:.6g} to {:.6g} s, and the run with the most work from {:.6g} to {:.6g}",
+                      history.time.empty() ? 0 : history.time.front(),
+                      history.time.empty() ? 0 : history.time.back(), due.time.front(), due.time.back());
+      continue;
+    }
     if (!covers(due, runs[i].history))
       findings.part = fmt::format("from {:.6g} to {:.6g} s", due.time.front(), due.time.back());
     const auto found =

@@ -14,6 +14,7 @@ struct StudyFinding {
       error;  ///< RMS over the largest magnitude of the reference; none where the run failed
   std::optional<double> rms, largest;  ///< in the unit of the column
   bool on_front = false;               ///< no run is cheaper and nearer at once
+  std::string why_none;                ///< of a run that finished and has no error
 };
 
 /// Runs that differ in one number alone.

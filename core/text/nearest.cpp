@@ -42,7 +42,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& nam
     const std::size_t distance = edit_distance(word, name);
     // More than half of the letters changed is another word.
     if (distance > std::max(word.size(), name.size()) / 2) continue;
-    if (best.empty() || distance < best_distance) {
+    const bool goes_on = name.starts_with(word) && !best.starts_with(word);
+    if (best.empty() || distance < best_distance || (distance == best_distance && goes_on)) {
       best = name;
       best_distance = distance;
     }

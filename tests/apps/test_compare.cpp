@@ -167,7 +167,9 @@ TEST_CASE("a step that the scene states is told as that, and what it costs at th
   REQUIRE(call.code == 0);
   CHECK_THAT(call.out, Contains("the step that the scene states, "));
   CHECK_THAT(call.err, !Contains("bound its own more"));
-  const auto run = json_of(scratch / "out/small-compare/compare.json")["runs"][1];
+  const auto json = json_of(scratch / "out/small-compare/compare.json");
+  CHECK(json["common_dt [s]"].get<double>() == Approx(1.5 * own));
+  const auto run = json["runs"][1];
   CHECK(run["own_steps"].get<double>() > run["steps"].get<double>());
   CHECK(run["cost_at_own_dt"].is_number());
 }

@@ -203,7 +203,7 @@ TEST_CASE("validate tells stiffness that is out of proportion, covers of many el
              Contains("stiff, which costs steps; 10 E/h is 1e+10 Pa/m") && !Contains("soft, bodies sink"));
   // Half of a metre over the speed of a bar's wave, 707 m/s.
   const std::string flutters = "a damping_time of about 0.0007 s stills it";
-  CHECK_THAT(stiff, Contains(flutters));
+  CHECK_THAT(stiff, Contains(flutters) && Contains("/interfaces/0 has friction and 1e+03 E/h of 'block'"));
   CHECK_THAT(soft, !Contains("flutter"));
   CHECK_THAT(told({rock, "/materials/rock/damping_time=1e-3", "/cover/model=block",
                    "/interfaces/0/normal_stiffness=1e12"}),

@@ -72,6 +72,18 @@ TEST_CASE("A study passes on what its runs warn of", "[apps][study]") {
              Contains("settling ended with its duration"));
 }
 
+TEST_CASE("A study says why runs have no error", "[apps][study]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call call =
+      call_talus(scratch.folder(), {"study", "small.json", "--quiet", "--vary", "/time/end=0.01,0.015,0.02"});
+  INFO(call.out + call.err);
+  REQUIRE(call.code == 0);
+  CHECK_THAT(call.out + call.err,
+             Contains("no error of end=0.01 and of 1 more: it goes from 0 to 0.01 s, and "
+                      "the run with the most work from 0 to 0.02"));
+}
+
 TEST_CASE("A study makes each run as often as it is asked to and takes the median of the cost",
           "[apps][study]") {
   const Scratch scratch;

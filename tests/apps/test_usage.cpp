@@ -36,6 +36,7 @@ TEST_CASE("a word that is no command or option gets the nearest one", "[apps]") 
   const Call other = call_talus(scratch.folder(), {"run", "scene.json", "--nope"});
   CHECK_THAT(other.err, Contains("unknown option '--nope'") && !Contains("did you mean"));
   CHECK(call_talus(scratch.folder(), {"--versoin"}).code == 2);
+  CHECK_THAT(call_talus(scratch.folder(), {"--vers"}).err, Contains("did you mean '--version'?"));
   CHECK(call_talus(scratch.folder(), {}).code == 2);
 }
 
@@ -88,8 +89,11 @@ TEST_CASE("values of options that make no sense are refused with what would", "[
     const char* said;
   } mistaken[] = {
       {{"advise", "scene.json"}, "--error 1% is missing"},
-      {{"advise", "scene.json", "--error", "little"}, "--error little: give a share above 0, 1% or 0.01"},
+      {{"advise", "scene.json", "--error", "little"},
+       "--error little: give a share above 0, at most 1: 1% or 0.01"},
       {{"advise", "scene.json", "--error", "-1%"}, "--error -1%: give a share above 0"},
+      {{"advise", "scene.json", "--error", "5"}, "--error 5: give a share above 0, at most 1"},
+      {{"run", "scene.json", "--out", ""}, "--out is empty"},
       {{"advise", "scene.json", "--error", "1%%"}, "--error 1%%: give a share above 0"},
       {{"help", "run", "--man"}, "the manual page holds all commands: give --man alone"},
       {{"run", "scene.json", "--wall-time", "-1"}, "--wall-time -1: give seconds, 0 or more"},

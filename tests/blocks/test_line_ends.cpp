@@ -58,7 +58,7 @@ TEST_CASE("a joint that ends within 1e-8 of a line cuts at any angle", "[blocks]
     const Scene scene = splay(degrees, 2e-5);
     CHECK(scene.bodies.size() == 2);
     REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings[0], Contains("1 end of drawn lines") && Contains("is 2e-05 m short of a line"));
+    CHECK_THAT(scene.warnings[0], Contains("1 end of drawn lines") && Contains("is 2e-05 m from it"));
   }
 }
 
@@ -99,11 +99,11 @@ TEST_CASE("lines whose ends miss each other by rounding are one", "[blocks]") {
 TEST_CASE("of lines in a chain the end alone is loose", "[blocks]") {
   const Scene chain = lines(R"({"points": [[0, 1], [5, 0.5]]}, {"points": [[5, 0.5], [8, 5]]})");
   REQUIRE(chain.warnings.size() == 2);
-  CHECK_THAT(chain.warnings[0], Contains("1 end of drawn lines") && Contains("at (8, 5), is 2 m short of"));
+  CHECK_THAT(chain.warnings[0], Contains("1 end of drawn lines") && Contains("at (8, 5), is 2 m from it"));
   // A line that itself cuts nothing is one to be short of.
   const Scene beside = lines(R"({"points": [[0, 1], [5, 1]]}, {"points": [[3, 4], [3, 1.25]]})");
   CHECK_THAT(beside.warnings[0],
-             Contains("3 ends of drawn lines") && Contains("at (3, 1.25), is 0.25 m short"));
+             Contains("3 ends of drawn lines") && Contains("at (3, 1.25), is 0.25 m from it"));
 }
 
 TEST_CASE("a line that is drawn twice ends as loose as if it were drawn once", "[blocks]") {
@@ -113,6 +113,6 @@ TEST_CASE("a line that is drawn twice ends as loose as if it were drawn once", "
         lines(fmt::format(R"({{"points": [[0, 1], [5, 0.5]]}}, {{"points": [[0, 1], {}]}})", end));
     CHECK(twice.bodies.size() == 1);
     REQUIRE(twice.warnings.size() == 2);
-    CHECK_THAT(twice.warnings[0], Contains("2 ends of drawn lines") && Contains("is 0.5 m short of"));
+    CHECK_THAT(twice.warnings[0], Contains("2 ends of drawn lines") && Contains("is 0.5 m from it"));
   }
 }

@@ -189,7 +189,7 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
   CHECK(whole.bodies.size() == 1);
   REQUIRE(whole.warnings.size() == 2);
   CHECK_THAT(whole.warnings[0],
-             Contains("1 end of drawn lines within a block") && Contains("at (0.9, 0.5), is 0.1 m short of"));
+             Contains("1 end of drawn lines within a block") && Contains("at (0.9, 0.5), is 0.1 m from it"));
   CHECK_THAT(whole.warnings[1], Contains("'b' stays one block: nothing cuts its domain"));
   CHECK(sample::read(generator_scene(grid)).warnings.empty());
   // Of the second line the upper end is just short of the first; what meets a line or the boundary does not
@@ -199,7 +199,7 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
                     {"points": [[0.25, 0.5], [0.25, 1]]}])"));
   CHECK(three.bodies.size() == 3);
   REQUIRE(three.warnings.size() == 1);
-  CHECK_THAT(three.warnings[0], Contains("at (0.5, 0.499), is 0.001 m short of"));
+  CHECK_THAT(three.warnings[0], Contains("at (0.5, 0.499), is 0.001 m from it"));
   // Short by the rounding of a drawing with few decimals, and by less than ends are lengthened by.
   for (const char* end : {"0.49999", "0.4999999", "0.49999998", "0.499999999"}) {
     CAPTURE(end);
@@ -216,7 +216,7 @@ TEST_CASE("joints that cut nothing are told of", "[blocks]") {
                     {"points": [[500000.25, 4999990], [500000.25, 5000000.499]]}])",
       "[[500000, 5000000], [500001, 5000000], [500001, 5000001], [500000, 5000001]]"));
   REQUIRE(far.warnings.size() == 1);
-  CHECK_THAT(far.warnings[0], Contains("at (500000.25, 5000000.499), is 0.001 m short of"));
+  CHECK_THAT(far.warnings[0], Contains("at (500000.25, 5000000.499), is 0.001 m from it"));
   // Beside a mistake, too, which may come from it.
   try {
     sample::read(

@@ -17,6 +17,8 @@ TEST_CASE("a variation is a pointer and its values", "[compare][variation]") {
 TEST_CASE("commas within a value do not divide it", "[compare][variation]") {
   CHECK(parse_variation("/gravity=[0, -9.81],[0, -10]").values ==
         std::vector<std::string>{"[0, -9.81]", "[0, -10]"});
+  CHECK(parse_variation(R"(/title="a\\","b","c\",d")").values ==
+        std::vector<std::string>{R"("a\\")", R"("b")", R"("c\",d")"});
   CHECK(parse_variation("/title=\"a,b\",c").values == std::vector<std::string>{"\"a,b\"", "c"});
 }
 

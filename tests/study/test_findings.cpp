@@ -217,5 +217,7 @@ TEST_CASE("A study tells of a curve that ends before its runs, and measures none
   runs[0].history = reference;
   const StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
   CHECK_FALSE(findings.runs[0].error);
+  CHECK_THAT(findings.runs[0].why_none, Contains("it goes from 0 to") && Contains("the most work from 0 to"));
   CHECK(findings.runs[1].error);
+  CHECK(findings.runs[1].why_none.empty());
 }

@@ -137,9 +137,9 @@ class LaneLoads {
     slipped_ = Law::frictional ? simd::mask_of(slipped(g, history_of(g, batch))) : simd::nowhere();
     const Packs2 normal = normal_of_contact();
     const Closing closing{
-        simd::only_where(contact_length_ > 0.0, share * 2.0 * interface.normal_damping *
-                                                    simd::sqrt(interface.normal_stiffness *
-                                                               g.reduced_mass / contact_length_)),
+        simd::only_where(contact_length_ > 0.0,
+                         share * 2.0 * interface.normal_damping *
+                             simd::sqrt(interface.normal_stiffness * g.reduced_mass / contact_length_)),
         sliding.origin,
         -simd::dot(normal, sliding.velocity),
         {-simd::dot(normal, sliding.by_x), -simd::dot(normal, sliding.by_y)}};
@@ -323,8 +323,7 @@ class LaneLoads {
 
     report.tangential = elastic;
     if (simd::any(interface.tangential_damping > 0.0)) {
-      const Pack viscosity =
-          2.0 * interface.tangential_damping * simd::sqrt(stiffness * g.reduced_mass);
+      const Pack viscosity = 2.0 * interface.tangential_damping * simd::sqrt(stiffness * g.reduced_mass);
       const Pack damped = simd::clamp(elastic - viscosity * slip, -bound, bound);
       report.tangential =
           simd::select(holds & !slips & (interface.tangential_damping > 0.0), damped, elastic);

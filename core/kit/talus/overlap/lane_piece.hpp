@@ -68,7 +68,8 @@ struct LaneRows {
     if constexpr (sides == mixed) {
       for (int i = 0; i < corners; ++i) {
         real[i] = 0;
-        for (int lane = 0; lane < lanes; ++lane) real[i] |= (static_cast<std::uint32_t>(i) < at.count[lane] ? 1U : 0U) << lane;
+        for (int lane = 0; lane < lanes; ++lane)
+          real[i] |= (static_cast<std::uint32_t>(i) < at.count[lane] ? 1U : 0U) << lane;
       }
     }
   }

@@ -37,7 +37,8 @@ class LaneSieve {
  private:
   Pack least_reach_of_both(const BoundaryCorner* corner, const LanePlaces* at, Packs2 offset) {
     if constexpr (corners == 4) {
-      if (sides_of(at[0].count) == 4 && sides_of(at[1].count) == 4) return least_reach_of_all<4>(corner, at, offset);
+      if (sides_of(at[0].count) == 4 && sides_of(at[1].count) == 4)
+        return least_reach_of_all<4>(corner, at, offset);
     }
     return least_reach_of_all<mixed>(corner, at, offset);
   }
