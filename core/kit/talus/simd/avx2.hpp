@@ -32,6 +32,7 @@ struct Packs2 {
 inline Numbers numbers(const std::uint8_t* from) {
   return (Numbers)_mm_cvtepu8_epi32(_mm_loadu_si32(from));
 }
+/// Of numbers below 2³¹.
 inline Pack doubles(Numbers n) {
   return _mm256_cvtepi32_pd((__m128i)n);
 }

@@ -32,6 +32,7 @@ struct Packs2 {
 inline Numbers numbers(const std::uint8_t* from) {
   return (Numbers)_mm256_cvtepu8_epi32(_mm_loadu_si64(from));
 }
+/// Of numbers below 2³¹.
 inline Pack doubles(Numbers n) {
   return _mm512_maskz_cvtepu32_pd(0xFF, (__m256i)n);
 }

@@ -32,6 +32,7 @@ struct Packs2 {
 inline Numbers numbers(const std::uint8_t* from) {
   return Numbers{*from};
 }
+/// Of numbers below 2³¹.
 inline Pack doubles(Numbers n) {
   return static_cast<double>(n[0]);
 }
