@@ -26,6 +26,10 @@ QUIET = ["--set", "/output/frames=null"]
 ONCE = ["--threads", "1"]
 
 
+def from_scenes(path):
+    return os.path.relpath(ROOT / path, ROOT / "scenes")
+
+
 def last_row(folder):
     with open(folder / "history.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
@@ -52,6 +56,7 @@ class Studies:
         """Makes a study and puts its command and picture on the page; its runs, and the folder."""
         words = [*words, *ONCE] + (["--repeat", str(repeat)] if repeat > 1 else [])
         shown = " ".join(f"'{w}'" if any(c in w for c in '{}[]"* ') else w for w in words)
+        shown = shown.replace(from_scenes(self.out), "../out/tradeoffs")  # as with the --out that is shown
         folder = self.out / name
         done = subprocess.run([self.talus, "study", *words, "--quiet", "--out", str(folder)], cwd=ROOT, capture_output=True, text=True)
         if done.returncode != 0:
@@ -132,7 +137,7 @@ def covers(studies):
     made = subprocess.run([sys.executable, "scenes/generate/mesh.py", "--size", "2", "1", "--divisions", "4", "2", "--corner",
                            "-8.005423651204648", "4.6219335", "--angle", "-30"], cwd=ROOT, capture_output=True, text=True, check=True)
     (ROOT / mesh).write_text(made.stdout, encoding="utf-8")
-    body = json.dumps({"name": "block", "material": "rock", "mesh": os.path.relpath(ROOT / mesh, ROOT / "scenes")})
+    body = json.dumps({"name": "block", "material": "rock", "mesh": from_scenes(mesh)})
     covers = [{"model": "rigid"}, {"model": "block"}, {"model": "mesh"}] + [{"model": "hexagonal", "size": s} for s in (0.4, 0.25)]
     study, folder = studies.study("covers", [
         "scenes/incline.json", "--vary", "/cover=" + ",".join(json.dumps(c, separators=(",", ":")) for c in covers),

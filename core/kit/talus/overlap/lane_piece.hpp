@@ -38,10 +38,8 @@ struct LanePlaces {
   Numbers start;       ///< the corner of the piece that is called 0 here
   Numbers count;       ///< of corners
 
-  void place(int lane, std::uint32_t first_corner, std::uint32_t corner_count,
-             std::uint32_t start_corner = 0) {
+  void place(int lane, std::uint32_t first_corner, std::uint32_t corner_count) {
     first[lane] = first_corner;
-    start[lane] = start_corner;
     count[lane] = corner_count;
   }
 };
