@@ -40,6 +40,33 @@ Scene at_level(const Short& what, SimdLevel level) {
   return read_scene(what.scene, registry, {what.overrides});
 }
 
+/// Triangles and quadrilaterals in one group, on a floor.
+constexpr const char* mixed_shapes = R"({"talus": 1, "gravity": [0, -10],
+  "materials": {"rock": {"density": 2300, "model": "linear_elastic", "young_modulus": 1e8, "poisson_ratio": 0.25}},
+  "cover": {"model": "block"}, "contact": {"model": "overlap_area"},
+  "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e8, "tangential_stiffness": 5e7,
+                  "friction_angle": 20, "normal_damping": 0.1, "tangential_damping": 0.1}],
+  "bodies": [{"name": "floor", "polygon": [[-3, -1], [9, -1], [9, 0], [-3, 0]], "material": "rock", "fixed": true},
+             {"name": "a", "polygon": [[0.7, 0], [1, 0.6], [0.3, 0.9]], "material": "rock"},
+             {"name": "b", "polygon": [[1.2, 0.1], [2, 0.01], [2.1, 0.7], [1.3, 0.8]], "material": "rock"},
+             {"name": "c", "polygon": [[2.3, 0.02], [3.1, 0.04], [2.7, 0.7]], "material": "rock"},
+             {"name": "d", "polygon": [[3.3, 0.3], [3.9, 0], [4.3, 0.8], [3.6, 0.9]], "material": "rock"}],
+  "time": {"end": 0.3}})";
+
+/// What is told of all contacts in a run.
+std::vector<double> told_of_contacts(const Short& what, SimdLevel level) {
+  Simulation simulation(at_level(what, level), {});
+  std::vector<double> told;
+  while (simulation.advance()) {
+    for (const Contact& contact : simulation.contacts()) {
+      told.insert(told.end(), {contact.point.x, contact.point.y, contact.normal_force.x,
+                               contact.normal_force.y, contact.tangential_force.x, contact.tangential_force.y,
+                               contact.penetration, contact.moment});
+    }
+  }
+  return told;
+}
+
 void check_bits(const Short& what) {
   CAPTURE(what.name);
   const SimdLevel best_level = best_simd_level();
@@ -71,6 +98,14 @@ TEST_CASE("Same bits with any number of threads, without the skin, and with any 
                Short{"contact_patch",
                      shipped_file("contact_patch"),
                      {{"/time/end", "0.0001"}, {"/settle/duration", "0.0005"}}}));
+}
+
+TEST_CASE("What is told of contacts has the same bits with any instruction set", "[figures][same_bits]") {
+  const Short what{"mixed shapes", mixed_shapes, {{"/output", R"({"history": 0.005})"}}};
+  const std::vector<double> due = told_of_contacts(what, SimdLevel::scalar);
+  REQUIRE(due.size() > 100);
+  for (int level = 1; level <= static_cast<int>(best_simd_level()); ++level)
+    CHECK(told_of_contacts(what, static_cast<SimdLevel>(level)) == due);
 }
 
 TEST_CASE("Same bits in all scenes that are measured", "[slow][figures][same_bits]") {

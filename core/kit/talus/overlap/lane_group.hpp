@@ -210,7 +210,6 @@ struct LaneGroup {
     }
   }
 
-  /// Load that came to the repeated first corner of a piece with fewer corners goes to that corner.
   void write_any(const ContactLoads& loads, int p, LaneBits wanted, const LaneCorner* from) const {
     alignas(64) double x[corners][lanes], y[corners][lanes];
     for (int i = 0; i < corners; ++i) {
@@ -219,10 +218,6 @@ struct LaneGroup {
     }
     each_lane(wanted, [&](int lane) {
       const auto size = static_cast<int>(places[p].count[lane]);
-      for (int i = size; i < corners; ++i) {
-        x[0][lane] += x[i][lane];
-        y[0][lane] += y[i][lane];
-      }
       CornerLoad* const to = loads.corner + std::uint32_t{places[p].first[lane] + places[p].load_shift[lane]};
       auto corner = static_cast<int>(places[p].start[lane]);
       for (int i = 0; i < size; ++i) {

@@ -345,6 +345,9 @@ class LaneLoads {
     };
     close(piece_[0], corners_of(sides, corners));
     close(piece_[1], corners_of(other_sides, corners));
+    if constexpr (sides == mixed) {
+      for (int p = 0; p < 2; ++p) piece_[p].fold_repeated(g.places[p].count);
+    }
     g.template write_loads<sides, other_sides>(loads, wanted, rows_, piece_);
     double *report_row[lanes], *row[lanes], *second_row[lanes];
     PairReport spare;

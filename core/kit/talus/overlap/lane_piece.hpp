@@ -179,6 +179,21 @@ struct LanePiece {
     for (int i = 0; i < corners_of(sides, corners); ++i) corner[i].load = corner[i].load + Packs2{x[i], y[i]};
   }
 
+  /// Of mixed lanes: load that came to the repeated first corner of a piece with fewer corners, of which it
+  /// has `count`, goes to that corner. What is left is what the same piece has among its like.
+  void fold_repeated(const Numbers& count) {
+    const Pack own = simd::doubles(count);
+    for (int i = 3; i < corners; ++i) {
+      const Mask repeated = own <= static_cast<double>(i);
+      const auto fold = [&](Pack& to, Pack& from) {
+        to = simd::select(repeated, to + from, to);
+        from = simd::select(repeated, 0.0, from);
+      };
+      fold(corner[0].load.x, corner[i].load.x);
+      fold(corner[0].load.y, corner[i].load.y);
+    }
+  }
+
   /// Where the corners are and how the sides run, no more.
   template <int sides>
   void read_shape(const BoundaryCorner* from, const LaneRows<corners>& rows, Packs2 offset) {
