@@ -1,9 +1,11 @@
 #pragma once
 
+#include "strips.hpp"
 #include "vertex.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -26,18 +28,20 @@ struct CornerContact {
   bool meets_corner;          ///< two corners meet, and each stands on the other's edge
   bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
   bool stands;                ///< on this side, not only on others that the same vertex was found at
+  bool idle;                  ///< neither of the sides of its body that meet in it faces the side
   Point before, after;        ///< tangents of the edges that meet in the vertex
 };
 
-/// Whether an edge is no more than a corner cut off, or rounding, between two others.
+/// Whether an edge is no more than a corner cut off, or rounding, between two others. The end of a thin plate
+/// is none: its neighbours run back beside each other.
 inline bool is_short(const Piece& piece, std::uint32_t edge) {
-  constexpr double share = 1e-3;
+  constexpr double share = 1e-3, runs_back = -0.98;
   const std::uint32_t before = piece.previous(edge), after = piece.next(edge);
   const auto turns = [&](std::uint32_t other) {
     return dot(piece.tangent(other), piece.tangent(edge)) < straight;
   };
   return piece.length(edge) < share * std::max(piece.length(before), piece.length(after)) && turns(before) &&
-         turns(after);
+         turns(after) && dot(piece.tangent(before), piece.tangent(after)) > runs_back;
 }
 
 /// Of the edges that meet in a vertex, the one that lies flatter on a side along `along`; a short one only
@@ -52,6 +56,9 @@ inline std::uint32_t flatter_edge(const Piece& own, std::uint32_t v, Point along
 
 /// Share of its edges by which a corner may stand past the end of an edge and still be carried by it.
 inline constexpr double flush = 0.01;
+
+/// Share of a side of a body of many elements up to which its ends are near by another side.
+inline constexpr double near_by = 0.1;
 
 /// How far above a side a vertex still stands on it, m: held by a bond, and with what a step may have torn
 /// that off, so that it is seen to break.
@@ -81,7 +88,8 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, vertex->before, vertex->after},
+              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, false, vertex->before,
+               vertex->after},
               found);
       }
     }
@@ -121,7 +129,7 @@ class CornerFinder {
     const Point at = own.at(v), outward = outward_of(own, vertex, v);
     // A strip knows one side of its corner. At right angles to what it stands on, rounding would have it
     // stand on the far side of the other body instead.
-    const double looks_away = own.is_strip() ? 0.1 : 0;
+    const double looks_away = own.is_strip() ? upright : 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
@@ -130,7 +138,11 @@ class CornerFinder {
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
       const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
-      if (distance >= nearest) continue;
+      const bool idle = own.is_strip() && is_idle(own, v, other.normal(k));
+      const bool beside = idle != contact.idle && std::isfinite(nearest) &&
+                          (idle ? nearest : distance) <= near_by * own.length(0);
+      if (beside ? idle : distance >= nearest) continue;
+      contact.idle = idle;
       nearest = distance;
       contact.side = k;
       contact.depth = depth;
@@ -153,6 +165,7 @@ class CornerFinder {
       const double past = -other.depth(k, at);
       at_cut = at_cut || (other.is_cut(k) && past >= -1e-9 * edge);
       if (!(past > contact.slack)) continue;
+      if (own.is_strip() && other.is_strip() && stays_before(own, other, contact)) continue;
       if (!ends_side || past > edge || !(contact.depth > 0)) return;
       contact.past_cut = true;
     }
@@ -160,6 +173,11 @@ class CornerFinder {
     if (tips[0].past > contact.slack || tips[1].past > contact.slack) return;
     if (vertex.divided && !has_flatter_edge(own, vertex, v, other.tangent(contact.side))) return;
     contact.lever = other.lever(contact.side, at);
+    // Past the end of a strip only one that comes back over it stands there: the other lies on what follows,
+    // and need not be listed with this one.
+    const bool past_end = contact.lever < 0 || contact.lever > 1;
+    if (past_end && own.is_strip() && other.is_strip() && (contact.lever > 0.5) != (contact.vertex == 0))
+      return;
     if (at_cut && !contact.past_cut && is_before_another(pieces, at, outward, contact)) return;
     contact.tributary = tributary_length(pieces, contact);
     if (contact.depth > bond_reach.held && !own.is_strip()) {
@@ -170,6 +188,26 @@ class CornerFinder {
     // Both bodies bring the ends of all their sides: each does half.
     if (own.is_strip() && other.is_strip()) contact.share = 0.5;
     found.push_back(contact);
+  }
+
+  /// Whether the end of a strip, and its neighbour there, is at right angles to a side or looks away from it.
+  /// Beside a side that one of them faces, such a one bears nothing: where equal bodies lie flush, a corner
+  /// of the one is less deep behind the flank of the other than behind the face that it presses on.
+  static bool is_idle(const Piece& own, std::uint32_t v, Point normal) {
+    if (dot(own.normal(0), normal) < -upright) return false;
+    const Point beyond = tangent_beyond(own, v);
+    return !(dot(Point{beyond.y, -beyond.x}, normal) < -upright);
+  }
+
+  /// Whether the end of a strip stands on the side that its foot lies on, also past the bisector in which the
+  /// strip behind that ends where the boundary turns outward: the strip behind the corner bears nothing of
+  /// it.
+  static bool stays_before(const Piece& own, const Piece& other, const CornerContact& contact) {
+    if (!(dot(own.normal(0), other.normal(0)) < -upright)) return false;
+    const double lever = other.lever(0, own.at(contact.vertex)), slack = contact.slack / other.length(0);
+    if (!(lever >= -slack && lever <= 1 + slack)) return false;
+    const Point beyond = tangent_beyond(other, lever > 0.5 ? 1 : 0);
+    return is_idle(own, contact.vertex, {beyond.y, -beyond.x});
   }
 
   /// An edge beside a side, and how far past it a vertex is, m; negative: behind it.
@@ -339,7 +377,6 @@ class CornerFinder {
     const std::uint32_t body = contact.vertex_body, side = contact.side;
     const Piece &own = pieces[contact.entry].piece[body], &other = pieces[contact.entry].piece[1 - body];
     const Point along = other.tangent(side);
-    // Sides of a body of many elements are pieces of their own: where the one ends the next goes on.
     if (own.is_strip() && other.is_strip()) return own.length(0) / 2 * std::abs(dot(own.tangent(0), along));
     const std::uint32_t edge = flatter_edge(own, contact.vertex, along);
     const auto [own_low, own_high] = straight_run(own, edge, !other.is_strip());

@@ -88,7 +88,13 @@ inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector
 }
 
 /// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
-inline bool is_nearer(const CornerContact& contact, const CornerContact& other) {
+/// Where it bears nothing it does not stand if there is another side near by.
+inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
+                      const CornerContact& other) {
+  if (contact.idle != other.idle) {
+    const double near = near_by * pieces[contact.entry].piece[contact.vertex_body].length(0);
+    if ((contact.idle ? other : contact).depth <= near) return other.idle;
+  }
   const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
   if (std::abs(contact.depth - other.depth) > 1e-9 * contact.tributary) return contact.depth < other.depth;
   return beside(contact) < beside(other);
@@ -125,7 +131,7 @@ inline void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector
     const auto nearest = std::find_if(found.begin(), contact, [&](const CornerContact& other) {
       return other.stands && other.key == contact->key;
     });
-    contact->stands = nearest == contact || is_nearer(*contact, *nearest);
+    contact->stands = nearest == contact || is_nearer(pieces, *contact, *nearest);
     if (contact->stands && nearest != contact) nearest->stands = false;
   }
   const auto led_to = [&](const CornerContact& contact) {

@@ -24,6 +24,7 @@ struct SpringParameters {
   double normal, tangential;  ///< N/m per metre of thickness
   double friction;            ///< μ
   double cohesion, tensile;   ///< N/m, strength times tributary length; zero once the bond is broken
+  double least;               ///< N/m, tension of a gap that is only rounding, which cohesion survives
 };
 
 struct SpringForce {
@@ -39,12 +40,15 @@ inline double shear_strength(const SpringParameters& spring, double normal) {
 
 /// Mohr–Coulomb with tension cut-off: no more than c l + N tan φ along the edge, no more than σ_t l across
 /// it; a bond that slips is broken, but one without any strength along the edge only ties. `viscous` is what
-/// a dashpot adds to the normal force. While the scene settles what has strength is held.
+/// a dashpot adds to the normal force. While the scene settles what has strength is held: along the edge also
+/// across a gap, which without tensile strength nothing pulls at.
 inline SpringForce spring_force(const SpringParameters& spring, double depth, double viscous,
                                 double old_tangential, double slip, bool held) {
   SpringForce force{spring.normal * depth, old_tangential - spring.tangential * slip, false, false};
-  const bool bond_held = held && spring.tensile > 0;
-  if (force.normal < -spring.tensile && !bond_held) return {0, 0, false, true};
+  if (force.normal < -std::max(spring.tensile, spring.least)) {
+    if (!held || (spring.tensile == 0 && spring.cohesion == 0)) return {0, 0, false, true};
+    if (spring.tensile == 0) force.normal = 0;
+  }
   const double limit = shear_strength(spring, force.normal + viscous);
   const bool without_strength = spring.friction == 0 && spring.cohesion == 0;
   if (held && !without_strength) return force;

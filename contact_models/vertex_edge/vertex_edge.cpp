@@ -3,6 +3,7 @@
 #include "corner_contacts.hpp"
 #include "reflex_corners.hpp"
 #include "springs.hpp"
+#include "strip_ends.hpp"
 
 #include <talus/library.hpp>
 
@@ -60,7 +61,7 @@ class VertexEdge final : public ContactModel {
 
   void evaluate(const ContactBatch& batch, const ContactLoads& loads) const noexcept override {
     static thread_local const auto work = std::make_unique<Workspace>();
-    work->reach_of_bonds = reach_of_bonds(batch.interfaces, batch.hold_stick);
+    work->bonds = strongest_bonds(batch.interfaces, batch.hold_stick);
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const std::uint32_t i = batch.active[k];
       evaluate_pair(batch, loads, batch.pairs[i], loads.pairs[i], *work);
@@ -79,11 +80,21 @@ class VertexEdge final : public ContactModel {
   }
 
  private:
+  /// A gap that is only rounding, as a share of lengths beside it.
+  static constexpr double rounding_gap = 1e-9;
+
+  /// Of all interfaces.
+  struct BondStrength {
+    double reach;   ///< m, the widest gap an intact bond can span: σ_t over the stiffness; any while it is
+                    ///< held. Of springs that are given directly, per metre of tributary length
+    bool cohesive;  ///< there is cohesion, which survives gaps of rounding
+  };
+
   struct Workspace {
     std::vector<PiecePairGeometry> pieces;
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
-    double reach_of_bonds = 0;  ///< m, or [-] of springs given directly
+    BondStrength bonds{};
     CornerFinder finder;
   };
 
@@ -142,8 +153,9 @@ class VertexEdge final : public ContactModel {
     for (std::uint32_t e = 0; e < entries; ++e) {
       const double sides[2] = {longest_side(all[e].piece[0]), longest_side(all[e].piece[1])};
       const double touching = batch.bonds_form ? 1e-12 * std::min(sides[0], sides[1]) : 0.0;
-      const double bonded =
-          direct_ ? work.reach_of_bonds * std::max(sides[0], sides[1]) : work.reach_of_bonds;
+      const double longest = std::max(sides[0], sides[1]),
+                   bonded = std::max(direct_ ? work.bonds.reach * longest : work.bonds.reach,
+                                     work.bonds.cohesive ? rounding_gap * longest : 0);
       const double seen = bonded > touching ? bonded + batch.dt * fastest_apart(all[e]) : touching;
       const auto bond_reach = [&, bonded, touching, seen](std::uint32_t key) {
         if (bonded == touching) return BondReach{touching, touching};  // no need to know who is bonded
@@ -154,6 +166,7 @@ class VertexEdge final : public ContactModel {
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
     drop_repeated(all, work.found);
+    share_covered_sides(all, work.found);
   }
 
   static double side_of(const CornerContact& contact, const Workspace& work) {
@@ -178,20 +191,20 @@ class VertexEdge final : public ContactModel {
     return longest;
   }
 
-  /// The widest gap an intact bond can span: σ_t over the stiffness, the largest of all interfaces; any while
-  /// it is held. Of springs that are given directly, per metre of tributary length.
-  double reach_of_bonds(const Interfaces& interfaces, bool held) const {
-    double reach = 0;
+  BondStrength strongest_bonds(const Interfaces& interfaces, bool held) const {
+    BondStrength bonds{};
     const std::size_t pairs = std::size_t{interfaces.surface_count} * interfaces.surface_count;
     std::uint32_t rows = 0;  // that were looked at: many surfaces share few
     for (std::size_t i = 0; i < pairs; ++i) {
       for (; rows <= interfaces.row[i]; ++rows) {
         const Interface interface = read(interfaces.value + std::size_t{rows} * interfaces.parameter_count);
         const double stiffness = direct_ ? normal_spring_ : interface.normal_stiffness;
-        if (stiffness > 0) reach = std::max(reach, interface.tensile / stiffness);
+        if (stiffness > 0) bonds.reach = std::max(bonds.reach, interface.tensile / stiffness);
+        bonds.cohesive = bonds.cohesive || interface.cohesion > 0;
       }
     }
-    return held && reach > 0 ? std::numeric_limits<double>::infinity() : reach;
+    if (held && (bonds.reach > 0 || bonds.cohesive)) bonds.reach = std::numeric_limits<double>::infinity();
+    return bonds;
   }
 
   static const SpringHistory* find_old(const std::vector<SpringHistory>& old, std::uint32_t key) {
@@ -224,7 +237,7 @@ class VertexEdge final : public ContactModel {
       return own;
     }
     // A vertex that is bonded to one face of a corner is not to the other across a gap.
-    const bool bonds = batch.bonds_form && contact.depth > -1e-9 * contact.tributary;
+    const bool bonds = batch.bonds_form && contact.depth > -rounding_gap * contact.tributary;
     SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0};
     if (contact.share < 1 && !contact.meets_corner) {
       if (const SpringHistory* old = find_old(work.old, contact.key)) {
@@ -290,7 +303,7 @@ class VertexEdge final : public ContactModel {
 
     history.elastic = force.tangential;
     history.applied = contact.share * force.tangential;
-    const double stored_normal = contact.share * spring.normal * contact.depth * contact.depth / 2;
+    const double stored_normal = contact.share * force.normal * contact.depth / 2;
     const double stored_tangential =
         spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
                               : 0;
@@ -338,8 +351,12 @@ class VertexEdge final : public ContactModel {
   SpringParameters springs(const Interface& interface, double tributary, bool intact) const {
     const double normal = direct_ ? normal_spring_ : interface.normal_stiffness * tributary;
     const double tangential = direct_ ? tangential_spring_ : interface.tangential_stiffness * tributary;
-    return {normal, tangential, interface.friction, intact ? interface.cohesion * tributary : 0,
-            intact ? interface.tensile * tributary : 0};
+    return {normal,
+            tangential,
+            interface.friction,
+            intact ? interface.cohesion * tributary : 0,
+            intact ? interface.tensile * tributary : 0,
+            intact && interface.cohesion > 0 ? normal * rounding_gap * tributary : 0};
   }
 
   /// The interface of the edge with the flatter of the vertex's own edges.

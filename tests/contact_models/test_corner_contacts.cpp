@@ -174,3 +174,17 @@ TEST_CASE("a corner that is bonded to the one face of a bend is not to the other
   }
   CHECK(std::abs(simulation.body_motion(1).position.x - 1.509) < 1e-9);
 }
+
+TEST_CASE("thin slabs on each other touch, and no more", "[laws][vertex_edge]") {
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.cover = "block";
+  text.gravity = "[0, -10]";
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.bodies = box("below", 0, 0, 60, 0.05, R"("fixed": true)") + "," + box("above", 0, 0.05, 60, 0.1);
+  text.time = R"({"end": 0.02})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.summary().largest_penetration < 1e-5);
+  CHECK(std::abs(simulation.body_motion(1).displacement.y) < 1e-5);
+}

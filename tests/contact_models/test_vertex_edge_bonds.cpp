@@ -250,3 +250,24 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("Cohesion holds where a joint bears no pressure, without tensile strength", "[vertex_edge]") {
+  // A roof block of 3 m between two walls, which weighs less than its joints bear.
+  const bool settles = GENERATE(false, true);
+  CAPTURE(settles);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.cover = "block";
+  text.gravity = "[0, -10]";
+  text.interface = R"("normal_stiffness": 2e9, "tangential_stiffness": 2e9, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3, "cohesion": 1e5)";
+  text.bodies = box("left", -5, 0, -1.5, 4, R"("fixed": true)") + "," +
+                box("right", 1.5, 0, 5, 4, R"("fixed": true)") + "," + box("key", -1.5, 0, 1.5, 4);
+  if (settles) text.rest = R"("settle": {"duration": 0.5, "damping": 100, "hold_stick": true},)";
+  text.time = R"({"end": 0.3})";
+  Simulation simulation(text.read(), {});
+  simulation.settle();
+  while (simulation.advance()) {
+  }
+  CHECK(std::abs(simulation.body_motion(2).displacement.y) < 1e-4);
+}

@@ -1,0 +1,60 @@
+#include "simulation/working_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <string>
+
+using namespace talus;
+
+namespace {
+
+constexpr const char* springs = R"("normal_stiffness": {}, "tangential_stiffness": {}, "friction_angle": 0,
+                                   "normal_damping": {}, "tangential_damping": 0)";
+
+std::string lattice(double size, const std::string& more = "") {
+  return fmt::format(R"("cover": {{"model": "hexagonal", "size": {}}}{})", size, more);
+}
+
+}  // namespace
+
+TEST_CASE("Equal bodies of many elements pressed together, flush, keep their energy", "[vertex_edge]") {
+  const double size = GENERATE(0.1, 0.15);
+  CAPTURE(size);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.material = R"("density": 2000, "model": "linear_elastic", "young_modulus": 8e9, "poisson_ratio": 0.2)";
+  text.interface = fmt::format(springs, "2e8", "2e8", "0");
+  text.bodies = box("a", -1, 0, 0, 0.3, lattice(size, R"(, "surfaces": {"left": [3]})")) + "," +
+                box("b", 0, 0, 1, 0.3, lattice(size, R"(, "surfaces": {"right": [1]})"));
+  text.rest = R"("damping": 60, "surface_loads": [{"body": "a", "surface": "left", "pressure": 1e5},
+                                                  {"body": "b", "surface": "right", "pressure": 1e5}],)";
+  text.time = R"({"end": 0.05})";
+  const Simulation simulation = run_to_end(text);
+  CHECK(simulation.summary().largest_penetration > 2e-4);
+  CHECK(simulation.summary().largest_residual_share < 1e-4);
+}
+
+TEST_CASE("A block of many elements stands on another with the stiffness of its base", "[vertex_edge]") {
+  // Ends of the base at nodes of the lattice below, between two of them, and within one of its sides.
+  struct Base {
+    double left, width, upper, lower;
+  };
+  const Base base = GENERATE(Base{0.25, 0.5, 0.25, 0.25}, Base{0.08, 0.3, 0.1, 0.2},
+                             Base{0.08, 0.3, 0.2, 0.1}, Base{0.3, 0.12, 0.1, 0.5});
+  CAPTURE(base.left, base.width, base.upper, base.lower);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -10]";
+  text.material = R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e12, "poisson_ratio": 0)";
+  text.interface = fmt::format(springs, "1e8", "1e8", "0.5");
+  text.bodies = box("lower", 0, 0, 1, 0.5, lattice(base.lower, R"(, "fix": ["x", "y", "rotation"])")) + "," +
+                box("upper", base.left, 0.5, base.left + base.width, 0.9, lattice(base.upper));
+  text.rest = R"("damping": 200,)";
+  text.time = R"({"end": 0.3})";
+  const Simulation simulation = run_to_end(text);
+  const Motion &lower = simulation.body_motion(0), &upper = simulation.body_motion(1);
+  CHECK(lower.displacement.y - upper.displacement.y == Approx(2000 * 10 * 0.4 / 1e8).epsilon(0.01));
+  CHECK(std::abs(upper.rotation - lower.rotation) < 2e-6);
+}
