@@ -108,7 +108,9 @@ int advise_command(const Words& words) {
     fmt::print(" and about {:.2g} % of what it is measured against",
                100 * *study.findings.error_of_reference);
   fmt::print(", {:.3g} s of CPU", study.runs[*best].cpu);
-  if (study.findings.reference) {
+  if (study.findings.reference == *best) {
+    fmt::print(": it is the run that the others are measured against");
+  } else if (study.findings.reference) {
     const double of_reference = study.runs[*best].cpu / study.runs[*study.findings.reference].cpu;
     fmt::print(", {:.3g} times {} the run it is measured against",
                of_reference < 1 ? 1 / of_reference : of_reference,

@@ -72,9 +72,8 @@ void print_cost(const Scene& scene, const Preview& foreseen) {
 }  // namespace
 
 std::string words_of_flutter(const Scene& scene, const Preview& foreseen) {
-  if (!foreseen.stiffest || foreseen.stiffest->stilling == 0) return "";
-  if (!(foreseen.stiffest->share() > may_flutter * (1 + rounding))) return "";
-  const StiffnessShare& stiff = *foreseen.stiffest;
+  if (!foreseen.fluttering || !(foreseen.fluttering->share() > may_flutter * (1 + rounding))) return "";
+  const StiffnessShare& stiff = *foreseen.fluttering;
   return fmt::format(
       "/interfaces/{} has friction and {:.3g} E/h of '{}', which has no damping_time: what slides may "
       "flutter, and be braked less than its friction; a damping_time of about {:.1g} s stills it",

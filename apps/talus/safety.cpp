@@ -41,14 +41,14 @@ std::vector<std::string> names_of(const Scene& scene, const std::vector<std::siz
   return names;
 }
 
-/// A run that was stopped says nothing of how far what moved.
+/// A run that was stopped says nothing of how far what moved. Names of bodies hold no slash.
 std::string safety_csv(const Scene& scene, const Safety& safety) {
   std::string text =
       "factor,collapsed,displacement [m],body,kinetic [J/m],failing bodies,stopped by,lasted [s],still "
       "moving\n";
   for (const ReducedRun& run : by_factor(safety.runs)) {
     const auto names = [&](const std::vector<std::size_t>& bodies) {
-      return fmt::format("{}", fmt::join(names_of(scene, bodies), ";"));
+      return fmt::format("{}", fmt::join(names_of(scene, bodies), "/"));
     };
     const bool stopped = was_stopped(run);
     const std::string fields[] = {fmt::format("{}", run.factor),
@@ -138,6 +138,9 @@ void warn_of_scene(const Scene& scene) {
     print_warning("the stages of the scene are left out: strength is reduced from the start");
   if (!scene.settle)
     print_warning("the scene has no settle stage: what it does to come to rest counts as motion");
+  std::vector<std::string> raised;
+  question_bonds(scene, raised);
+  for (const std::string& words : raised) print_warning(words);
   std::vector<std::string> moving, driven;
   for (const SceneBody& body : scene.bodies) {
     if (body.velocity.x != 0 || body.velocity.y != 0 || body.angular_velocity != 0)

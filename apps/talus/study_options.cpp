@@ -75,7 +75,7 @@ void warn_of_no_errors(const StudyPlan& plan, const StudyFindings& findings) {
     ++count;
   }
   if (count == 0) return;
-  print_warning(fmt::format("no error of {}{}: {}; a --reference may do", plan.words(plan.points[first]),
+  print_warning(fmt::format("no error of {}{}: {}", plan.words(plan.points[first]),
                             count == 1 ? "" : fmt::format(" and of {} more", count - 1),
                             findings.runs[first].why_none));
 }

@@ -162,6 +162,7 @@ void vote_dt(const ComparisonOrder& order, Comparison& comparison) {
     const std::optional<double>& given = order.scenes[i].time.dt;
     const double own = order.variation.of_time() && given ? *given : simulation.automatic_dt();
     comparison.runs[i].own_dt = own;
+    comparison.runs[i].critical_dt = simulation.critical_dt();
     smallest = i == 0 ? own : std::min(smallest, own);
   }
   if (!order.variation.of_time()) comparison.common_dt = order.scenes[0].time.dt.value_or(smallest);
@@ -327,6 +328,11 @@ double steps_at(const Scene& scene, double dt) {
   return whole * of_span(interval) + (rest > 1e-9 * interval ? of_span(rest) : 0.0);
 }
 
+/// Whether a stage bound the step more than the vote at the start, also where the scene states it.
+bool was_bound_more(const ComparedRun& run) {
+  return run.result.summary.critical_dt < 0.99 * run.critical_dt;
+}
+
 /// Where nothing but the vote at the start bound the step, it bounds that of each run by itself, too.
 void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
   const bool some_critical =
@@ -341,8 +347,16 @@ void count_own_steps(const ComparisonOrder& order, Comparison& comparison) {
     }
     const Scene& scene = order.scenes[i];
     const double due = steps_at(scene, *comparison.common_dt);
-    if (std::abs(made - due) <= 0.01 * due) {
+    const bool as_planned = std::abs(made - due) <= 0.01 * due;
+    if (as_planned && !was_bound_more(run)) {
       run.own_steps = steps_at(scene, run.own_dt);
+      continue;
+    }
+    if (as_planned) {
+      comparison.warnings.push_back(
+          fmt::format("a stage bound the step of '{}' by itself to {:.3g} of that at its start, so what it "
+                      "costs at its own step is not told",
+                      run.value, run.result.summary.critical_dt / run.critical_dt));
       continue;
     }
     comparison.warnings.push_back(fmt::format(

@@ -38,6 +38,7 @@ struct ComparisonOrder {
 struct ComparedRun {
   std::string value;
   double own_dt = 0;                ///< s, the automatic step this run would have chosen alone
+  double critical_dt = 0;           ///< s, bound at its start, whoever meets whom
   std::optional<double> own_steps;  ///< how many of them it would have made; none where that is not known
   std::optional<double> settled_difference;  ///< m, largest distance of a vertex from the baseline's at t = 0
   RunResult result;

@@ -105,8 +105,8 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
        "CPU seconds per step times the steps needed at own_dt, over the baseline's: computed, not run"},
       {"common_dt", "the step that the scene states, or the largest for all; null where it varies"},
       {"own_dt",
-       "the time step of the run by itself at its start: automatic, whatever the scene states, or as "
-       "varied"},
+       "the time step of the run by itself at its start: automatic, whatever the scene states; where "
+       "something of /time is varied, the one stated, if one is"},
       {"own_steps",
        "of own_dt at most, each output met; null where speed, contacts or stages bound the step more"},
       {"settled_difference", "largest distance of a vertex from where it is in the baseline, at t = 0"}};

@@ -25,7 +25,9 @@ std::vector<std::string> split_values(std::string_view text) {
       values.back() += text[++i];
       continue;
     }
-    if (letter == '"') quoted = !quoted;
+    // Within a text that is not in quotes it is a letter like others.
+    if (letter == '"' && (quoted || depth > 0 || values.back().find_first_not_of(' ') == std::string::npos))
+      quoted = !quoted;
     if (!quoted && (letter == '[' || letter == '{')) ++depth;
     if (!quoted && (letter == ']' || letter == '}')) --depth;
     if (letter == ',' && depth == 0 && !quoted) {

@@ -40,7 +40,8 @@ struct Preview {
   std::uint64_t rows = 0, frames = 0,
                 bytes = 0;  ///< of the files of results, bytes by the state after the trial
   std::optional<StiffnessShare> softest, stiffest;
-  std::vector<std::string> warnings;  ///< of the simulation, and what a reviewer would raise
+  std::optional<StiffnessShare> fluttering;  ///< the stiffest that may flutter with friction
+  std::vector<std::string> warnings;         ///< of the simulation, and what a reviewer would raise
 };
 
 /// Looks at the scene at t = 0, without settling, and takes steps for `trial_seconds`. The simulation is used
@@ -53,8 +54,12 @@ std::vector<std::string> review(const Scene& scene, double dt);
 /// Asks about values of materials and interfaces that look as if they were given in other units.
 void question_units(const Scene& scene, std::vector<std::string>& raised);
 
-/// Softest and stiffest of the interfaces between surfaces that can meet, by E/h; neither where no body
-/// deforms or the law reads no normal_stiffness.
+/// Asks about bonds that hold against slip and not against opening.
+void question_bonds(const Scene& scene, std::vector<std::string>& raised);
+
+/// Softest and stiffest of the interfaces between surfaces that can meet, by E/h, and the stiffest of those
+/// with friction on a body that nothing damps; none where no body deforms or the law reads no
+/// normal_stiffness.
 void compare_stiffness(const Simulation& simulation, Preview& preview);
 
 }  // namespace talus

@@ -155,6 +155,7 @@ std::vector<std::string> review(const Scene& scene, double dt) {
   review_sleep(scene, raised);
   review_use(scene, raised);
   question_units(scene, raised);
+  question_bonds(scene, raised);
   review_discontinuities(scene, raised);
   return raised;
 }

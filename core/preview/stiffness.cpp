@@ -71,7 +71,11 @@ void compare_stiffness(const Simulation& simulation, Preview& preview) {
         const StiffnessShare share{row,    body,  scene.interface_values[row][*stiffness],
                                    *young, width, stilling};
         if (!preview.softest || share.share() < preview.softest->share()) preview.softest = share;
-        if (!preview.stiffest || share.share() > preview.stiffest->share()) preview.stiffest = share;
+        const auto stiffer_than = [&](const std::optional<StiffnessShare>& former) {
+          return !former || share.share() > former->share();
+        };
+        if (stiffer_than(preview.stiffest)) preview.stiffest = share;
+        if (stilling > 0 && stiffer_than(preview.fluttering)) preview.fluttering = share;
       }
     }
   }

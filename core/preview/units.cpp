@@ -15,6 +15,9 @@ namespace {
 constexpr double lightest = 100;   ///< kg/m³
 constexpr double softest = 1e3;    ///< Pa
 constexpr double smoothest = 1.5;  ///< degrees
+constexpr double heaviest = 3e4;   ///< kg/m³
+constexpr double hardest = 5e12;   ///< Pa
+constexpr double fastest = 5e3;    ///< m/s², of what a centrifuge can do
 
 std::optional<double> value_of(std::span<const Parameter> parameters, const std::vector<double>& values,
                                std::string_view key) {
@@ -27,6 +30,11 @@ void question_material(const SceneMaterial& material, std::vector<std::string>& 
     raised.push_back(fmt::format("the density of '{}' is {:.4g} kg/m3: is it given in t/m3?", material.name,
                                  material.density));
   }
+  if (material.density > heaviest) {
+    raised.push_back(
+        fmt::format("the density of '{}' is {:.4g} kg/m3: heavier than any matter, is it given in g/m3?",
+                    material.name, material.density));
+  }
   if (material.model.component == nullptr) return;
   const Component& model = *material.model.component->component;
   const auto young =
@@ -34,6 +42,10 @@ void question_material(const SceneMaterial& material, std::vector<std::string>& 
   if (young && *young < softest) {
     raised.push_back(
         fmt::format("young_modulus of '{}' is {:.4g} Pa: is it given in MPa or GPa?", material.name, *young));
+  }
+  if (young && *young > hardest) {
+    raised.push_back(fmt::format("young_modulus of '{}' is {:.4g} Pa: nothing is as stiff; is it in pascals?",
+                                 material.name, *young));
   }
 }
 
@@ -63,19 +75,44 @@ void question_interface(const Scene& scene, std::size_t row, std::vector<std::st
   }
 }
 
+/// Rows that rule where surfaces can meet.
+std::set<std::uint32_t> rows_in_use(const Scene& scene) {
+  std::set<std::uint32_t> rows;
+  if (scene.contact.component == nullptr) return rows;
+  const std::vector<bool> meet = meetings(scene);
+  for (std::size_t i = 0; i < meet.size(); ++i) {
+    if (meet[i]) rows.insert(scene.interface_row[i]);
+  }
+  return rows;
+}
+
 }  // namespace
+
+void question_bonds(const Scene& scene, std::vector<std::string>& raised) {
+  for (const std::uint32_t row : rows_in_use(scene)) {
+    const Component& law = *scene.contact.component->component;
+    const auto value = [&](std::string_view key) {
+      return value_of({law.interface_parameters, law.interface_parameter_count}, scene.interface_values[row],
+                      key);
+    };
+    const auto cohesion = value("cohesion"), strength = value("tensile_strength");
+    if (!cohesion || !strength || !(*cohesion > 0) || *strength > 0) continue;
+    raised.push_back(
+        fmt::format("/interfaces/{} has a cohesion of {:.4g} Pa and no tensile_strength: where a joint opens "
+                    "at all, be it for a moment, its cohesion is lost for good",
+                    row, *cohesion));
+  }
+}
 
 void question_units(const Scene& scene, std::vector<std::string>& raised) {
   std::set<std::uint32_t> used;
   for (const SceneBody& body : scene.bodies) used.insert(body.material);
   for (const std::uint32_t material : used) question_material(scene.materials[material], raised);
-  if (scene.contact.component == nullptr) return;
-  std::set<std::uint32_t> rows;
-  const std::vector<bool> meet = meetings(scene);
-  for (std::size_t i = 0; i < meet.size(); ++i) {
-    if (meet[i]) rows.insert(scene.interface_row[i]);
+  const double pull = std::hypot(scene.gravity.x, scene.gravity.y);
+  if (pull > fastest) {
+    raised.push_back(fmt::format("gravity is {:.4g} m/s2: is it given in mm/s2?", pull));
   }
-  for (const std::uint32_t row : rows) question_interface(scene, row, raised);
+  for (const std::uint32_t row : rows_in_use(scene)) question_interface(scene, row, raised);
 }
 
 }  // namespace talus

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -182,7 +183,7 @@ class Expander {
         ends.begin(), ends.end(), [](const LooseEnd& p, const LooseEnd& q) { return p.gap < q.gap; });
     result.warnings.push_back(
         fmt::format("{}: {} end{} of drawn lines within a block: nothing is cut from their last crossing "
-                    "on; the one nearest to another line or the boundary, at {}, is {:.3g} m from it",
+                    "on; the one nearest to what is cut, at {}, is {:.3g} m from it",
                     section.pointer(), ends.size(), ends.size() == 1 ? "" : "s", place_text(nearest.at, size),
                     nearest.gap));
   }
@@ -220,25 +221,56 @@ class Expander {
            within(from.y, to.y - from.y, box.low.y, box.high.y);
   }
 
-  /// Of units or an origin that do not fit.
+  static bool meets(const std::vector<Vec2>& line, const Box& domain) {
+    for (std::size_t p = 1; p < line.size(); ++p) {
+      if (passes(line[p - 1], line[p], domain)) return true;
+    }
+    return false;
+  }
+
+  /// Of units or an origin that do not fit, and of lines that name surfaces which then are nowhere.
+  void warn_of_lines_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
+    const std::size_t given = joints.drawing.empty() ? joints.cuts.size() : joints.first_of_drawing;
+    std::vector<std::size_t> outside;
+    for (std::size_t i = 0; i < given; ++i) {
+      if (!meets(joints.cuts[i].points, domain)) outside.push_back(i);
+    }
+    if (!outside.empty()) {
+      result.warnings.push_back(
+          fmt::format("{}: this joint {} outside the domain, which goes from {} to {}",
+                      below(section.pointer_to("joints"), outside[0]),
+                      outside.size() == 1 ? std::string("lies")
+                                          : fmt::format("and {} more of {} lie", outside.size() - 1, given),
+                      place_text(domain.low, domain.size()), place_text(domain.high, domain.size())));
+    }
+    if (!joints.drawing.empty()) warn_of_drawing_elsewhere(section, joints, domain);
+  }
+
   void warn_of_drawing_elsewhere(const Section& section, const Joints& joints, const Box& domain) {
-    if (joints.drawing.empty()) return;
     std::vector<Vec2> points;
+    std::set<std::uint32_t> within, beside;
     for (std::size_t i = joints.first_of_drawing; i < joints.cuts.size(); ++i) {
-      const std::vector<Vec2>& line = joints.cuts[i].points;
-      for (std::size_t p = 1; p < line.size(); ++p) {
-        if (passes(line[p - 1], line[p], domain)) return;
-      }
-      points.insert(points.end(), line.begin(), line.end());
+      const Cut& cut = joints.cuts[i];
+      (meets(cut.points, domain) ? within : beside).insert(cut.surface);
+      points.insert(points.end(), cut.points.begin(), cut.points.end());
     }
     if (points.empty()) return;
     const Box drawing = box_around(points);
-    result.warnings.push_back(fmt::format(
-        "{}: no line of {} meets the domain: it is drawn from {} to {}, the domain goes from {} to {}; is it "
-        "in metres, and are both from one origin?",
-        section.pointer_to("dxf"), joints.drawing, place_text(drawing.low, drawing.size()),
-        place_text(drawing.high, drawing.size()), place_text(domain.low, domain.size()),
-        place_text(domain.high, domain.size())));
+    if (within.empty()) {
+      result.warnings.push_back(fmt::format(
+          "{}: no line of {} meets the domain: it is drawn from {} to {}, the domain goes from {} to {}; is "
+          "it in metres, and are both from one origin?",
+          section.pointer_to("dxf"), joints.drawing, place_text(drawing.low, drawing.size()),
+          place_text(drawing.high, drawing.size()), place_text(domain.low, domain.size()),
+          place_text(domain.high, domain.size())));
+      return;
+    }
+    for (const std::uint32_t surface : beside) {
+      if (within.count(surface) != 0 || surface == 0) continue;
+      result.warnings.push_back(fmt::format("{}: {}: no line of layer '{}' meets the domain",
+                                            section.pointer_to("dxf"), joints.drawing,
+                                            joints.surfaces[surface]));
+    }
   }
 
   void warn_of_names_of_one_line(const Section& section, const Joints& joints, const NamesOfOneLine& names) {
@@ -269,7 +301,7 @@ class Expander {
       order.split_share = joints.split_share;
       order.split_seed = joints.split_seed;
       CutDomain made = cut_domain(order, geos);
-      warn_of_drawing_elsewhere(section, joints, box);
+      warn_of_lines_elsewhere(section, joints, box);
       warn_of_loose_ends(section, made.loose_ends, box.size());
       warn_of_bridges(section, made.bridged, box.size());
       warn_of_what_is_left_out(section, made);

@@ -214,10 +214,11 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
     }
     if (!reference && !(covers(due, runs[i].history) && covers(runs[i].history, due))) {
       const Series& history = runs[i].history;
-      findings.runs[i].why_none =
-          fmt::format("it goes from {:.6g} to {:.6g} s, and the run with the most work from {:.6g} to {:.6g}",
-                      history.time.empty() ? 0 : history.time.front(),
-                      history.time.empty() ? 0 : history.time.back(), due.time.front(), due.time.back());
+      findings.runs[i].why_none = fmt::format(
+          "it goes from {:.6g} to {:.6g} s, and the run with the most work from {:.6g} to {:.6g}; a "
+          "--reference may do",
+          history.time.empty() ? 0 : history.time.front(), history.time.empty() ? 0 : history.time.back(),
+          due.time.front(), due.time.back());
       continue;
     }
     if (!covers(due, runs[i].history))
@@ -226,7 +227,12 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
         deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
     any_in_common = any_in_common || found;
     const double scale = largest_magnitude(due, *due_column, runs[i].history);
-    if (!found || !std::isfinite(found->rms) || !(scale > 0)) continue;
+    if (!found || !std::isfinite(found->rms) || !(scale > 0)) {
+      findings.runs[i].why_none = !found      ? "it has no time in common with the reference"
+                                  : scale > 0 ? "its values are no finite numbers"
+                                              : "it and the reference are 0 wherever both are";
+      continue;
+    }
     findings.runs[i].rms = found->rms;
     findings.runs[i].largest = found->largest;
     findings.runs[i].error = found->rms / scale;

@@ -33,17 +33,20 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+/// What begins a word, and may be all that somebody cared to type.
+constexpr std::size_t few_letters = 3;
+
 std::string nearest(const std::string& word, const std::vector<std::string>& names) {
   if (word.size() > 200) return {};
   std::string best;
   std::size_t best_distance = 0;
   for (const std::string& name : names) {
     if (name.size() > 2 * word.size()) continue;  // more than half of its letters are missing
-    const std::size_t distance = edit_distance(word, name);
+    const bool goes_on = word.size() >= few_letters && name.starts_with(word);
+    const std::size_t distance = goes_on ? 1 : edit_distance(word, name);
     // More than half of the letters changed is another word.
     if (distance > std::max(word.size(), name.size()) / 2) continue;
-    const bool goes_on = name.starts_with(word) && !best.starts_with(word);
-    if (best.empty() || distance < best_distance || (distance == best_distance && goes_on)) {
+    if (best.empty() || distance < best_distance) {
       best = name;
       best_distance = distance;
     }

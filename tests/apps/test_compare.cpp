@@ -172,6 +172,23 @@ TEST_CASE("a step that the scene states is told as that, and what it costs at th
   const auto run = json["runs"][1];
   CHECK(run["own_steps"].get<double>() > run["steps"].get<double>());
   CHECK(run["cost_at_own_dt"].is_number());
+
+  std::vector<std::string> staged{
+      "compare",
+      "small.json",
+      "--overwrite",
+      "--set",
+      fmt::format("/time/dt={}", own / 9),
+      "--vary",
+      R"(/stages=[],[{"name": "s", "from": 0.1, "set": {"/interfaces/0/normal_stiffness": 1e10}}])"};
+  const Call stiffer = call_talus(scratch.folder(), staged);
+  INFO(stiffer.out << stiffer.err);
+  REQUIRE(stiffer.code == 0);
+  CHECK_THAT(stiffer.err,
+             Contains("a stage bound the step of '[{") && !Contains("a stage bound the step of '[]'"));
+  const auto of_stage = json_of(scratch / "out/small-compare/compare.json");
+  CHECK(of_stage["runs"][0]["own_steps"].is_number());
+  CHECK(of_stage["runs"][1]["own_steps"].is_null());
 }
 
 TEST_CASE("columns of a reference in another unit are named", "[apps][compare]") {

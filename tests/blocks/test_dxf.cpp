@@ -220,6 +220,24 @@ TEST_CASE("a drawing that misses the domain raises a warning", "[blocks]") {
              Contains("/blocks/0/dxf: no line of ") && Contains("meets the domain") && Contains("in metres"));
 }
 
+TEST_CASE("joints and layers beside the domain raise a warning", "[blocks]") {
+  const Scratch scratch;
+  std::string far = line;
+  for (const char* key : {" 20\n", " 21\n"}) far.insert(far.find(key) + 4, "5000");
+  scratch.write("two.dxf", drawing(far + old_polyline));
+  const Scene scene = read_in(
+      scratch,
+      generator_scene(
+          R"("dxf": "two.dxf", "joints": [{"points": [[0, 0.3], [1, 0.3]]}, {"points": [[2, 2], [3, 3]]}])"));
+  const auto told = [&](const char* words) {
+    return std::ranges::any_of(
+        scene.warnings, [&](const std::string& each) { return each.find(words) != std::string::npos; });
+  };
+  CHECK(told("/blocks/0/joints/1: this joint lies outside the domain, which goes from"));
+  CHECK(told("two.dxf: no line of layer 'fault' meets the domain"));
+  CHECK_FALSE(told("'cross'"));
+}
+
 TEST_CASE("lines of two names on each other raise a warning", "[blocks]") {
   const Scratch scratch;
   const Scene scene = read_in(scratch, generator_scene(R"("joints": [

@@ -19,6 +19,7 @@ TEST_CASE("commas within a value do not divide it", "[compare][variation]") {
         std::vector<std::string>{"[0, -9.81]", "[0, -10]"});
   CHECK(parse_variation(R"(/title="a\\","b","c\",d")").values ==
         std::vector<std::string>{R"("a\\")", R"("b")", R"("c\",d")"});
+  CHECK(parse_variation(R"(/title=a\"b,c)").values == std::vector<std::string>{R"(a\"b)", "c"});
   CHECK(parse_variation("/title=\"a,b\",c").values == std::vector<std::string>{"\"a,b\"", "c"});
 }
 

@@ -158,12 +158,43 @@ TEST_CASE("A reviewer asks about bodies that are thin beside the others", "[prev
   CHECK(warned(text, "1 of 4 bodies that move is thinner than a thousandth of most, 'foil' the thinnest"));
 }
 
+TEST_CASE("What may flutter is found beside what is stiffer and slides without friction", "[preview]") {
+  WorkingScene text = resting();
+  text.bodies = box("base", 0, 0, 4, 2, R"("fixed": true)") + "," + box("smooth", 0.5, 2, 1.5, 3) + "," +
+                box("rough", 2.5, 2, 3.5, 3, R"("surfaces": {"sole": [0]})");
+  text.interface = R"("normal_stiffness": 1e10, "tangential_stiffness": 1e10, "friction_angle": 0,
+                      "normal_damping": 0, "tangential_damping": 0},
+                     {"between": ["sole", "rock"], "normal_stiffness": 1e9, "tangential_stiffness": 1e9,
+                      "friction_angle": 30, "normal_damping": 0, "tangential_damping": 0)";
+  const Preview foreseen = of(text);
+  REQUIRE(foreseen.fluttering);
+  CHECK(foreseen.stiffest->row == 0);
+  CHECK(foreseen.fluttering->row == 1);
+}
+
+TEST_CASE("A reviewer tells of cohesion that the first gap takes away", "[preview]") {
+  WorkingScene text = resting();
+  text.law = GENERATE("vertex_edge", "cohesive_overlap");
+  const std::string common = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0, "tangential_damping": 0, "cohesion": 1e5)",
+                    words = "/interfaces/0 has a cohesion of 1e+05 Pa and no tensile_strength";
+  text.interface = common;
+  CHECK(warned(text, words));
+  text.interface = common + R"(, "tensile_strength": 1e4)";
+  CHECK_FALSE(warned(text, words));
+}
+
 TEST_CASE("A reviewer asks about values that look as if they were in other units", "[preview]") {
   WorkingScene text = resting();
   for (const char* words : {"t/m3", "GPa", "coefficient", "go through"}) CHECK_FALSE(warned(text, words));
   text.material = R"("density": 2.3, "model": "linear_elastic", "young_modulus": 10, "poisson_ratio": 0.2)";
   CHECK(warned(text, "is 2.3 kg/m3: is it given in t/m3?"));
   CHECK(warned(text, "is 10 Pa: is it given in MPa or GPa?"));
+  text.material =
+      R"("density": 2.3e6, "model": "linear_elastic", "young_modulus": 2e13, "poisson_ratio": 0.2)";
+  text.gravity = "[0, -9810]";
+  for (const char* words : {"is it given in g/m3?", "nothing is as stiff", "is it given in mm/s2?"})
+    CHECK(warned(text, words));
   text = resting();
   text.interface = R"("normal_stiffness": 0, "tangential_stiffness": 1e9, "friction_angle": 0.6,
                       "normal_damping": 0, "tangential_damping": 0)";

@@ -221,3 +221,17 @@ TEST_CASE("A study tells of a curve that ends before its runs, and measures none
   CHECK(findings.runs[1].error);
   CHECK(findings.runs[1].why_none.empty());
 }
+
+TEST_CASE("A study says why a run has no error that a reference does not reach", "[study]") {
+  std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                             run_of(0.08, 2, 2), run_of(0.02, 9, 90)};
+  Series reference = run_of(0, 0, 0).history;
+  runs[0].history.time.resize(1);
+  for (std::vector<double>& values : runs[0].history.values) values.resize(1);
+  reference.time.erase(reference.time.begin());
+  for (std::vector<double>& values : reference.values) values.erase(values.begin());
+  const StudyFindings findings = find_out(sample_steps(), runs, sample_column, reference);
+  CHECK_FALSE(findings.runs[0].error);
+  CHECK(findings.runs[0].why_none == "it has no time in common with the reference");
+  CHECK(findings.runs[1].why_none.empty());
+}
