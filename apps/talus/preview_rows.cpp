@@ -8,7 +8,7 @@ namespace talus {
 
 namespace {
 
-constexpr double too_soft = 0.1, may_flutter = 1, needlessly_stiff = 10;  ///< E/h
+constexpr double too_soft = 0.1, may_flutter = 1, may_walk = 5, needlessly_stiff = 10;  ///< E/h
 constexpr double rounding = 1e-9;
 
 std::string in_bytes(double bytes) {
@@ -76,8 +76,9 @@ std::string words_of_flutter(const Scene& scene, const Preview& foreseen) {
   const StiffnessShare& stiff = *foreseen.fluttering;
   return fmt::format(
       "/interfaces/{} has friction and {:.3g} E/h of '{}', which has no damping_time: what slides may "
-      "flutter, and be braked less than its friction; a damping_time of about {:.1g} s stills it",
-      stiff.row, stiff.share(), scene.bodies[stiff.body].name, stiff.stilling);
+      "flutter, and be braked less than its friction{}; a damping_time of about {:.1g} s stills it",
+      stiff.row, stiff.share(), scene.bodies[stiff.body].name,
+      stiff.share() > may_walk ? ", and what sticks shudder and walk" : "", stiff.stilling);
 }
 
 void print_row(const std::string& label, const std::string& words) {

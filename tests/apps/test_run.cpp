@@ -204,6 +204,8 @@ TEST_CASE("validate tells stiffness that is out of proportion, covers of many el
   // Half of a metre over the speed of a bar's wave, 707 m/s.
   const std::string flutters = "a damping_time of about 0.0007 s stills it";
   CHECK_THAT(stiff, Contains(flutters) && Contains("/interfaces/0 has friction and 1e+03 E/h of 'block'"));
+  CHECK_THAT(stiff, Contains("what slides may flutter, and be braked less than its friction, and what sticks "
+                             "shudder and walk"));
   CHECK_THAT(soft, !Contains("flutter"));
   CHECK_THAT(told({rock, "/materials/rock/damping_time=1e-3", "/cover/model=block",
                    "/interfaces/0/normal_stiffness=1e12"}),
