@@ -80,10 +80,6 @@ std::optional<po::variables_map> read_arguments(const Usage& usage, const std::v
   for (const std::string& argument : wanted) {
     if (!optional && given.count(argument) == 0)
       throw UsageError(usage.command, fmt::format("{} is missing", argument));
-    const auto* const text =
-        given.count(argument) == 0 ? nullptr : boost::any_cast<std::string>(&given[argument].value());
-    if (text != nullptr && text->empty())
-      throw UsageError(usage.command, fmt::format("{} is empty", argument));
   }
   return given;
 }

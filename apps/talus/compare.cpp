@@ -16,6 +16,7 @@
 #include "scene_options.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <deque>
@@ -50,6 +51,23 @@ std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& g
     }
   }
   return warnings;
+}
+
+/// Folders of an earlier comparison that this one does not write anew, as its table tells them.
+std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) {
+  const auto table = nlohmann::json::parse(read_whole_file(order.folder / "compare.json"), nullptr,
+                                           /*allow_exceptions=*/false);
+  std::vector<std::filesystem::path> left_over;
+  if (!table.is_object() || !table.contains("runs") || !table["runs"].is_array()) return left_over;
+  std::set<std::string> kept;
+  for (const std::string& value : order.variation.values) kept.insert(folder_of_value(value));
+  for (const auto& run : table["runs"]) {
+    const auto value = run.is_object() ? run.find("value") : run.end();
+    if (value == run.end() || !value->is_string()) continue;
+    const std::string name = folder_of_value(value->get<std::string>());
+    if (!kept.contains(name)) left_over.push_back(order.folder / name);
+  }
+  return left_over;
 }
 
 int code_of(const Comparison& comparison) {
@@ -103,7 +121,7 @@ Usage usage_of_compare() {
       "tell the deviations at this time too, s; may be given several times")(
       "out,o", po::value<std::string>()->value_name("DIR"),
       "folder for the results (default: out/<scene name>-compare)")(
-      "overwrite", "replace results that the folder holds already")(
+      "overwrite", "replace results that the folder holds already, those of other values, too")(
       "threads", po::value<std::string>()->value_name("N"),
       "runs at a time, one thread each (default: one per core)");
   add_scene_options(usage);
@@ -149,6 +167,9 @@ int compare_command(const Words& words) {
   }
   Comparison comparison = planned(order);
   const bool overwrite = given->count("overwrite") != 0;
+  if (overwrite && std::filesystem::exists(order.folder / "compare.json")) {
+    for (const std::filesystem::path& run : runs_left_over(order)) remove_run(run, read);
+  }
   prepare_output_folder(order.folder, overwrite, read);
   const FolderLock mine(order.folder);
   for (const std::string& value : order.variation.values) {

@@ -95,6 +95,7 @@ int doctor_command(const Words& words) {
   const auto given = read_arguments(usage, words);
   if (!given) return exit_code::ok;
   const std::filesystem::path folder = text_option(*given, "FOLDER");
+  if (folder.empty()) throw UsageError(usage.command, "FOLDER is empty");
   const auto record = tell_end(folder);
   say_when_energy_was_lost(folder, record.at("largest_residual_share").get<double>());
   const std::filesystem::path file = checkpoint_file(folder);

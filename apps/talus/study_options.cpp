@@ -86,7 +86,8 @@ void add_study_options(Usage& usage) {
   usage.options.add_options()(
       "vary", po::value<std::vector<std::string>>()->value_name("/pointer=a,b"),
       "what varies; may be given several times; with --sample also a range, low:high")(
-      "sample", po::value<int>()->value_name("N"), "a Latin hypercube of N runs instead of all combinations")(
+      "sample", po::value<int>()->value_name("N"),
+      "a Latin hypercube of N runs instead of all combinations; what listed values repeat is made once")(
       "seed", po::value<std::uint64_t>()->value_name("S"), "of the sample (default: 1)")(
       "reference", po::value<std::string>()->value_name("FILE.csv"),
       "curve to measure errors from (default: the run that did the most work)")(

@@ -126,6 +126,13 @@ void remove_if_empty(const fs::path& folder) {
     fs::remove(folder, kept);
 }
 
+void remove_files_of_run(const fs::path& run) {
+  const FolderLock mine(run);
+  for (const fs::path& file : results_in(run)) fs::remove(file);
+  for (const char* within : {"frames", "figures"}) remove_if_empty(run / within);
+  remove_if_empty(run);
+}
+
 }  // namespace
 
 void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
@@ -165,12 +172,13 @@ void remove_study(const fs::path& folder, const std::function<bool(const fs::pat
   }
   for (const fs::path& file : files) refuse_to_remove(file, read);
   for (const fs::path& table : present(folder, files_of_study)) fs::remove(table);
-  for (const fs::path& run : runs) {
-    const FolderLock mine(run);
-    for (const fs::path& file : results_in(run)) fs::remove(file);
-    for (const char* within : {"frames", "figures"}) remove_if_empty(run / within);
-    remove_if_empty(run);
-  }
+  for (const fs::path& run : runs) remove_files_of_run(run);
+}
+
+void remove_run(const fs::path& folder, const std::vector<fs::path>& read) {
+  if (fs::is_symlink(folder) || !fs::is_directory(folder)) return;
+  for (const fs::path& file : results_in(folder)) refuse_to_remove(file, read);
+  remove_files_of_run(folder);
 }
 
 bool holds_finished_run(const fs::path& folder) {

@@ -18,6 +18,10 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
 void prepare_folder_of_runs(const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& read = {});
 
+/// Takes a run out of its folder, and that, too, where nothing else is in it. Throws InputError, and removes
+/// nothing, where a file was `read` to make others; does nothing where there is no such folder.
+void remove_run(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& read);
+
 /// Takes the tables of a study and its runs out of a folder: of those that do not stay what talus writes, and
 /// their folders where nothing else is in them. Throws InputError, and removes nothing, where one was `read`
 /// to make others.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace talus {
 namespace {
@@ -112,6 +113,9 @@ StudyPlan latin_hypercube(const std::vector<Variation>& variations, std::size_t 
       }
     }
   }
+  // Of listed values alone a point may come more than once.
+  std::set<std::vector<std::string>> made;
+  std::erase_if(plan.points, [&](const StudyPoint& point) { return !made.insert(point.values).second; });
   return plan;
 }
 

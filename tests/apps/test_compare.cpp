@@ -248,3 +248,20 @@ TEST_CASE("a broken tolerance has its own exit code", "[apps][compare]") {
   scratch.write("a/history.csv", "t [s],block.uy\n0,0\n");
   CHECK(call_talus(scratch.folder(), words).code == 2);
 }
+
+TEST_CASE("a comparison that is made anew leaves no runs of other values beside its own", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b,c", "--out", "o"}).code ==
+      0);
+  scratch.write("o/b/notes.txt", "mine");
+  const Call call = call_talus(
+      scratch.folder(), {"compare", "small.json", "--vary", "/title=a,d", "--out", "o", "--overwrite"});
+  INFO(call.err);
+  REQUIRE(call.code == 0);
+  CHECK(std::filesystem::exists(scratch / "o/d/run.json"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "o/c"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "o/b/run.json"));
+  CHECK(std::filesystem::exists(scratch / "o/b/notes.txt"));
+}

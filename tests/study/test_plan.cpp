@@ -41,6 +41,7 @@ TEST_CASE("A Latin hypercube meets each stratum once", "[study]") {
   CHECK(even.size() == count);
   CHECK(ratio.size() == count);
   CHECK(words == 4);
+  CHECK(latin_hypercube({{"/word", {"a", "b"}}}, count, 7).points.size() == 2);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 7).points[3].values[0] == plan.points[3].values[0]);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 8).points[3].values[0] != plan.points[3].values[0]);
 }
@@ -56,6 +57,6 @@ TEST_CASE(
   for (const std::size_t count : {0, 10001})
     CHECK_THROWS_WITH(latin_hypercube({{"/a", {"1:2"}}}, count, 7),
                       "--sample " + std::to_string(count) + ": allowed are 1 to 10000");
-  CHECK(latin_hypercube({{"/a", {"c:d"}}}, 2, 7).points[1].values[0] == "c:d");
+  CHECK(latin_hypercube({{"/a", {"c:d"}}}, 2, 7).points[0].values[0] == "c:d");
   CHECK(grid({{"/a", {"x:", "1:2"}}}).points.size() == 2);  // of two values none is a range
 }
