@@ -29,8 +29,9 @@ class CornerOnSide {
     const double along = contact_.lever * side_of_.length(0);
     double covered = std::clamp(under == 1 ? side_of_.length(0) - along : along, 0.0, side_of_.length(0));
     if (CornerContact* const stands = end_of_side(under)) {
-      const double pressed = std::min(1.0, 2 * contact_.depth / stands->depth);
-      stands->tributary -= ends * std::max(0.0, pressed) * (side_of_.length(0) - covered) / 2;
+      // Nothing where the corner lifts off: the contact ends there without a jump.
+      const double pressed = stands->depth > 0 ? std::clamp(2 * contact_.depth / stands->depth, 0.0, 1.0) : 0;
+      stands->tributary -= ends * pressed * (side_of_.length(0) - covered) / 2;
     } else {
       covered = std::min(covered, to_other_corner(along));
     }

@@ -58,3 +58,24 @@ TEST_CASE("A block of many elements stands on another with the stiffness of its 
   CHECK(lower.displacement.y - upper.displacement.y == Approx(2000 * 10 * 0.4 / 1e8).epsilon(0.01));
   CHECK(std::abs(upper.rotation - lower.rotation) < 2e-6);
 }
+
+TEST_CASE("A wall of flush bodies of many elements settles from where its bodies touch", "[vertex_edge]") {
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -10]";
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.bodies = box("floor", -2, -1, 4, 0, R"("fixed": true)");
+  for (int column = 0; column < 2; ++column) {
+    for (int row = 0; row < 3; ++row)
+      text.bodies +=
+          "," + box(fmt::format("b{}{}", column, row), column, row, column + 1, row + 1, lattice(0.1));
+  }
+  text.rest = R"("settle": {"duration": 0.004, "damping": 100},)";
+  text.time = R"({"end": 0.002})";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.summary().largest_residual_share < 1e-3);
+}
