@@ -199,11 +199,12 @@ class CornerFinder {
     return !(dot(Point{beyond.y, -beyond.x}, normal) < -upright);
   }
 
-  /// Whether the end of a strip stands on the side that its foot lies on, also past the bisector in which the
-  /// strip behind that ends where the boundary turns outward: the strip behind the corner bears nothing of
-  /// it.
+  /// Whether the end of a strip, not deep behind the side that its foot lies on, stands there also past where
+  /// the strip behind that ends, since the boundary turns outward: the strip behind the corner bears nothing
+  /// of it.
   static bool stays_before(const Piece& own, const Piece& other, const CornerContact& contact) {
-    if (!(dot(own.normal(0), other.normal(0)) < -upright)) return false;
+    if (!(dot(own.normal(0), other.normal(0)) < -upright) || contact.depth > near_by * own.length(0))
+      return false;
     const double lever = other.lever(0, own.at(contact.vertex)), slack = contact.slack / other.length(0);
     if (!(lever >= -slack && lever <= 1 + slack)) return false;
     const Point beyond = tangent_beyond(other, lever > 0.5 ? 1 : 0);

@@ -5,85 +5,131 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace talus::vertex_edge {
 
-/// The corner at which a body of many elements ends, on a side of another.
-class CornerOnSide {
- public:
-  CornerOnSide(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found,
-               CornerContact& contact)
-      : found_(found),
-        contact_(contact),
-        own_(pieces[contact.entry].piece[contact.vertex_body]),
-        side_of_(pieces[contact.entry].piece[1 - contact.vertex_body]) {}
+/// A corner at which one body of many elements ends, on a side of the other.
+struct CornerOnSide {
+  std::uint32_t contact;  ///< which of those found
+  std::uint32_t side_of;  ///< first corner of the strip behind that side
+  double along;           ///< m, from its start
+  bool forward;           ///< its body lies over what follows on the side, or over what comes before
+  double ends;            ///< how much of that body ends there, 0 to 1
+};
 
-  /// Of the side that the corner stands on, the end over which the other body lies has half of what is
-  /// covered, in place of half of the side, and the corner has the other half.
-  void share_covered() {
-    const double ends = share_that_ends();
-    // The boundaries run against each other.
-    const std::uint32_t under = contact_.vertex;
-    if (!(ends > little) || end_of_side(1 - under) != nullptr) return;
-    const double along = contact_.lever * side_of_.length(0);
-    double covered = std::clamp(under == 1 ? side_of_.length(0) - along : along, 0.0, side_of_.length(0));
-    if (CornerContact* const stands = end_of_side(under)) {
-      // Nothing where the corner lifts off: the contact ends there without a jump.
-      const double pressed = stands->depth > 0 ? std::clamp(2 * contact_.depth / stands->depth, 0.0, 1.0) : 0;
-      stands->tributary -= ends * pressed * (side_of_.length(0) - covered) / 2;
-    } else {
-      covered = std::min(covered, to_other_corner(along));
+/// A flat contact between two bodies of many elements: the sides of each bear half of it, every side by its
+/// two ends, which have half of its length each. Of a side that the other body covers in part, each stretch
+/// that is covered bears by what stands at its ends: an end of the side, or a corner of the other body.
+class CoveredSides {
+ public:
+  CoveredSides(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found,
+               std::vector<CornerOnSide>& corners)
+      : pieces_(pieces), found_(found), corners_(corners) {}
+
+  void share() {
+    list_corners();
+    if (corners_.empty()) return;
+    for (CornerContact& contact : found_) {
+      if (is_between_strips(contact)) lessen(contact);
     }
-    contact_.tributary += ends * covered / 2;
+    for (const CornerOnSide& corner : corners_) add_to(corner);
   }
 
  private:
   static constexpr double little = 1e-3;
 
-  /// How much of what lies on the side ends with the corner: all at a right angle, nothing where the boundary
-  /// goes straight on; less the less flat it lies.
-  double share_that_ends() const {
-    const Point along = side_of_.tangent(0);
-    const double flat = flatness(own_.tangent(0), along);
+  const Piece& own(const CornerContact& contact) const {
+    return pieces_[contact.entry].piece[contact.vertex_body];
+  }
+  const Piece& side_of(const CornerContact& contact) const {
+    return pieces_[contact.entry].piece[1 - contact.vertex_body];
+  }
+  bool is_between_strips(const CornerContact& contact) const {
+    return own(contact).is_strip() && side_of(contact).is_strip();
+  }
+
+  void list_corners() {
+    corners_.clear();
+    for (std::uint32_t i = 0; i < found_.size(); ++i) {
+      const CornerContact& contact = found_[i];
+      if (!is_between_strips(contact)) continue;
+      const double ends = share_that_ends(contact);
+      const Piece& met = side_of(contact);
+      // The boundaries run against each other.
+      if (ends > little)
+        corners_.push_back({i, met.first_corner(), contact.lever * met.length(0), contact.vertex == 1, ends});
+    }
+  }
+
+  /// All of what lies on the side at a right angle, nothing where the boundary goes straight on; less the
+  /// less flat it lies.
+  double share_that_ends(const CornerContact& contact) const {
+    const Piece& strip = own(contact);
+    const Point along = side_of(contact).tangent(0);
+    const double flat = flatness(strip.tangent(0), along);
     if (!(flat > 0)) return 0;
-    const double onward = dot(tangent_beyond(own_, contact_.vertex), along) / dot(own_.tangent(0), along);
+    const double onward = dot(tangent_beyond(strip, contact.vertex), along) / dot(strip.tangent(0), along);
     return flat * std::clamp(1 - onward, 0.0, 1.0);
   }
 
-  /// Contact of an end of the side, if it stands on the other body.
-  CornerContact* end_of_side(std::uint32_t end) const {
-    const std::uint32_t key = 2 * (side_of_.first_corner() + end) + 1 - contact_.vertex_body;
-    const auto at =
-        std::ranges::find_if(found_, [&](const CornerContact& other) { return other.key == key; });
-    return at == found_.end() ? nullptr : &*at;
-  }
-
-  /// m, to the corner at which the other body ends on this side, too.
-  double to_other_corner(double along) const {
-    double least = side_of_.length(0);
-    for (const CornerContact& other : found_) {
-      if (other.entry == contact_.entry && other.vertex_body == contact_.vertex_body &&
-          other.vertex != contact_.vertex)
-        least = std::abs(other.lever * side_of_.length(0) - along);
+  /// An end of a side: what is covered goes as far as the next corner whose body lies between, or begins at a
+  /// corner with which the end is flush. Where the faces of a crack end on a side both are there.
+  void lessen(CornerContact& end) const {
+    const Piece& side = own(end);
+    const double length = side.length(0), at = end.vertex == 0 ? 0 : length;
+    const CornerOnSide *covers = nullptr, *begins = nullptr;
+    const auto away = [at](const CornerOnSide& corner) { return std::abs(corner.along - at); };
+    for (const CornerOnSide& corner : corners_) {
+      if (!lies_on(corner, side.first_corner(), end.vertex_body)) continue;
+      const CornerOnSide*& nearest = corner.forward == (end.vertex == 1) ? covers : begins;
+      if (nearest == nullptr || away(corner) < away(*nearest)) nearest = &corner;
     }
-    return least;
+    const bool is_flush = begins != nullptr && away(*begins) <= 2 * flush * length &&
+                          (covers == nullptr || away(*begins) < away(*covers));
+    const CornerOnSide* const next = is_flush ? begins : covers;
+    if (next == nullptr || !(end.depth > 0)) return;
+    const double share = is_flush ? 0 : std::clamp(away(*next) / length, 0.0, 1.0);
+    // Nothing is taken where the corner lifts off: the contact ends there without a jump.
+    const double pressed = std::clamp(2 * found_[next->contact].depth / end.depth, 0.0, 1.0);
+    end.tributary *= 1 - next->ends * pressed * (1 - share);
   }
 
+  /// A corner has half of the stretch of the side that its body covers from there on.
+  void add_to(const CornerOnSide& corner) const {
+    CornerContact& contact = found_[corner.contact];
+    const Piece& side = side_of(contact);
+    const double length = own(contact).length(0), nothing = std::numeric_limits<double>::infinity();
+    const double whole = corner.forward ? side.length(0) - corner.along : corner.along;
+    double covered =
+        stands(side.first_corner() + (corner.forward ? 1 : 0), 1 - contact.vertex_body) ? whole : nothing;
+    for (const CornerOnSide& other : corners_) {
+      if (!lies_on(other, corner.side_of, 1 - contact.vertex_body) || other.forward == corner.forward)
+        continue;
+      // No body is narrower than one of its sides: what is nearer is the other face of a crack.
+      const double away = (other.along - corner.along) * (corner.forward ? 1 : -1);
+      if (away > length / 2) covered = std::min(covered, away);
+    }
+    if (covered == nothing) covered = std::min(whole, length);
+    contact.tributary += corner.ends * std::max(0.0, covered) / 2;
+  }
+
+  /// Whether a corner lies on a side of `body`.
+  bool lies_on(const CornerOnSide& corner, std::uint32_t side, std::uint32_t body) const {
+    return corner.side_of == side && found_[corner.contact].vertex_body != body;
+  }
+
+  /// Whether an end of a side stands on the other body.
+  bool stands(std::uint32_t corner, std::uint32_t body) const {
+    const std::uint32_t key = 2 * corner + body;
+    return std::ranges::any_of(found_, [&](const CornerContact& contact) { return contact.key == key; });
+  }
+
+  std::span<const PiecePairGeometry> pieces_;
   std::vector<CornerContact>& found_;
-  CornerContact& contact_;
-  const Piece &own_, &side_of_;
+  std::vector<CornerOnSide>& corners_;
 };
-
-/// A flat contact between two bodies of many elements: the sides of each bear half of it, every side by its
-/// two ends, which have half of it each. A side that the other body covers in part bears by what is covered.
-inline void share_covered_sides(std::span<const PiecePairGeometry> pieces,
-                                std::vector<CornerContact>& found) {
-  for (CornerContact& contact : found) {
-    const PiecePairGeometry& both = pieces[contact.entry];
-    if (both.piece[0].is_strip() && both.piece[1].is_strip())
-      CornerOnSide(pieces, found, contact).share_covered();
-  }
-}
 
 }  // namespace talus::vertex_edge

@@ -9,13 +9,17 @@ namespace talus::vertex_edge {
 /// Cosine of the angle from which on two sides are at right angles.
 inline constexpr double upright = 0.1;
 
-/// Tangent of the side that meets a strip's own in its corner `v`, 0 or 1: the strip ends there along the
-/// bisector of the two. That of its own side where it has no width.
+/// The side of a strip along the bisector in which it ends at its corner `v`, 0 or 1. Where the bisector was
+/// cut off at the corner itself, that is what goes on from there.
+inline std::uint32_t bisector_at(const Piece& strip, std::uint32_t v) {
+  std::uint32_t edge = v == 0 ? strip.previous(0) : 1;
+  while (edge != 0 && !(strip.length(edge) > 0)) edge = v == 0 ? strip.previous(edge) : strip.next(edge);
+  return edge;
+}
+
+/// Tangent of the side that meets a strip's own in its corner `v`.
 inline Point tangent_beyond(const Piece& strip, std::uint32_t v) {
-  const Point own = strip.tangent(0);
-  const std::uint32_t edge = v == 0 ? strip.previous(0) : 1;
-  if (!(strip.length(edge) > 0)) return own;
-  const Point bisector = strip.tangent(edge);
+  const Point own = strip.tangent(0), bisector = strip.tangent(bisector_at(strip, v));
   return own - 2 * dot(bisector, own) * bisector;
 }
 

@@ -94,6 +94,7 @@ class VertexEdge final : public ContactModel {
     std::vector<PiecePairGeometry> pieces;
     std::vector<CornerContact> found;
     std::vector<SpringHistory> old;
+    std::vector<CornerOnSide> corners;
     BondStrength bonds{};
     CornerFinder finder;
   };
@@ -166,7 +167,7 @@ class VertexEdge final : public ContactModel {
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
     drop_repeated(all, work.found);
-    share_covered_sides(all, work.found);
+    CoveredSides(all, work.found, work.corners).share();
   }
 
   static double side_of(const CornerContact& contact, const Workspace& work) {
