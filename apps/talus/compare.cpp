@@ -55,9 +55,10 @@ std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& g
 
 /// Folders of an earlier comparison that this one does not write anew, as its table tells them.
 std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) {
-  const auto table = nlohmann::json::parse(read_whole_file(order.folder / "compare.json"), nullptr,
-                                           /*allow_exceptions=*/false);
   std::vector<std::filesystem::path> left_over;
+  const std::filesystem::path file = order.folder / "compare.json";
+  if (!std::filesystem::exists(file)) return left_over;
+  const auto table = nlohmann::json::parse(read_whole_file(file), nullptr, /*allow_exceptions=*/false);
   if (!table.is_object() || !table.contains("runs") || !table["runs"].is_array()) return left_over;
   std::set<std::string> kept;
   for (const std::string& value : order.variation.values) kept.insert(folder_of_value(value));
@@ -167,14 +168,13 @@ int compare_command(const Words& words) {
   }
   Comparison comparison = planned(order);
   const bool overwrite = given->count("overwrite") != 0;
-  if (overwrite && std::filesystem::exists(order.folder / "compare.json")) {
-    for (const std::filesystem::path& run : runs_left_over(order)) remove_run(run, read);
-  }
+  const std::vector<std::filesystem::path> left_over = runs_left_over(order);
   prepare_output_folder(order.folder, overwrite, read);
   const FolderLock mine(order.folder);
   for (const std::string& value : order.variation.values) {
     prepare_output_folder(order.folder / folder_of_value(value), overwrite, read);
   }
+  for (const std::filesystem::path& run : left_over) remove_run(run, read);
 
   order.interrupted = watch_for_interrupts();
   log.info("started", "",

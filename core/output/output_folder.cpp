@@ -98,14 +98,21 @@ void refuse_file(const fs::path& folder) {
     throw InputError(fmt::format("'{}' is in the way: it is a file, not a folder", folder.string()));
 }
 
-/// Results of before are what they are by name: one may be the scene itself.
-void refuse_to_remove(const fs::path& result, const std::vector<fs::path>& read) {
+/// The one of the files that were `read` that a result is, or null: results of before are what they are by
+/// name, and one may be the scene itself.
+const fs::path* read_as(const fs::path& result, const std::vector<fs::path>& read) {
   for (const fs::path& file : read) {
     std::error_code unknown;
-    if (!fs::equivalent(file, result, unknown)) continue;
-    throw InputError(fmt::format(
-        "'{}' is read to make the results that would replace it: give --out another folder", file.string()));
+    if (fs::equivalent(file, result, unknown)) return &file;
   }
+  return nullptr;
+}
+
+void refuse_to_remove(const fs::path& result, const std::vector<fs::path>& read) {
+  const fs::path* const file = read_as(result, read);
+  if (file == nullptr) return;
+  throw InputError(fmt::format(
+      "'{}' is read to make the results that would replace it: give --out another folder", file->string()));
 }
 
 /// A study cannot go on in a folder that has other results beside its runs.
@@ -177,7 +184,9 @@ void remove_study(const fs::path& folder, const std::function<bool(const fs::pat
 
 void remove_run(const fs::path& folder, const std::vector<fs::path>& read) {
   if (fs::is_symlink(folder) || !fs::is_directory(folder)) return;
-  for (const fs::path& file : results_in(folder)) refuse_to_remove(file, read);
+  for (const fs::path& file : results_in(folder)) {
+    if (read_as(file, read) != nullptr) return;
+  }
   remove_files_of_run(folder);
 }
 

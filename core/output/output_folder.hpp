@@ -18,8 +18,8 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
 void prepare_folder_of_runs(const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& read = {});
 
-/// Takes a run out of its folder, and that, too, where nothing else is in it. Throws InputError, and removes
-/// nothing, where a file was `read` to make others; does nothing where there is no such folder.
+/// Takes a run out of its folder, and that, too, where nothing else is in it. It stays where one of its files
+/// was `read` to make others; does nothing where there is no such folder.
 void remove_run(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& read);
 
 /// Takes the tables of a study and its runs out of a folder: of those that do not stay what talus writes, and

@@ -8,6 +8,9 @@
 namespace talus {
 namespace {
 
+/// What begins a word, and may be all that somebody cared to type.
+constexpr std::size_t few_letters = 3;
+
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
@@ -32,9 +35,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-/// What begins a word, and may be all that somebody cared to type.
-constexpr std::size_t few_letters = 3;
 
 std::string nearest(const std::string& word, const std::vector<std::string>& names) {
   if (word.size() > 200) return {};

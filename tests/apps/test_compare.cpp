@@ -264,4 +264,12 @@ TEST_CASE("a comparison that is made anew leaves no runs of other values beside 
   CHECK_FALSE(std::filesystem::exists(scratch / "o/c"));
   CHECK_FALSE(std::filesystem::exists(scratch / "o/b/run.json"));
   CHECK(std::filesystem::exists(scratch / "o/b/notes.txt"));
+
+  // A run that is read to make others stays.
+  const Call from_run = call_talus(scratch.folder(), {"compare", "o/d/resolved.json", "--vary", "/title=a,e",
+                                                      "--out", "o", "--overwrite"});
+  INFO(from_run.err);
+  REQUIRE(from_run.code == 0);
+  CHECK(std::filesystem::exists(scratch / "o/e/run.json"));
+  CHECK(std::filesystem::exists(scratch / "o/d/run.json"));
 }
