@@ -110,13 +110,14 @@ void ContactStage::keep_touching(const Model& model) {
 
 void ContactStage::note_neighbours(const Model& model) {
   lightest_neighbour_.assign(model.bodies.size(), std::numeric_limits<double>::infinity());
-  heaviest_neighbour_.assign(model.bodies.size(), 0.0);
+  heaviest_neighbour_.assign(holds_any() ? model.bodies.size() : 0, 0.0);
   const auto note = [&](std::uint32_t own, std::uint32_t other) {
     const Body& body = model.bodies[other];
     // What is held by its centre has strain modes all the same.
     if (!held_[other] || body.kinematics != Kinematics::rigid)
       lightest_neighbour_[own] = std::min(lightest_neighbour_[own], body.contact_mass);
-    if (!held_[other]) heaviest_neighbour_[own] = std::max(heaviest_neighbour_[own], body.contact_mass);
+    if (held_[own] && !held_[other])
+      heaviest_neighbour_[own] = std::max(heaviest_neighbour_[own], body.contact_mass);
   };
   for (const Candidate& candidate : candidates_) {
     const std::uint32_t a = model.piece_body[candidate.piece_a], b = model.piece_body[candidate.piece_b];

@@ -6,14 +6,16 @@
 namespace talus {
 namespace {
 
-/// Slots that wait in each batch, more where there are many pairs: a few per cent of the pairs meet between
-/// two searches.
-std::size_t waiting_for(std::size_t pairs) {
-  return 8 + pairs / 32;
+constexpr std::uint32_t no_bound = 0xFFFFFFFFu;
+
+/// Slots that wait in a batch, more where there are many: a few per cent of the pairs meet between two
+/// searches.
+std::uint32_t waiting_for(std::size_t slots) {
+  return static_cast<std::uint32_t>(8 + slots / 32);
 }
 
-std::size_t slots_of(std::span<const BodyPair> pairs) {
-  std::size_t slots = 0;
+std::uint32_t slots_of(std::span<const BodyPair> pairs) {
+  std::uint32_t slots = 0;
   for (const BodyPair& pair : pairs) slots += pair.slot_capacity;
   return slots;
 }
@@ -52,12 +54,13 @@ void ContactSlots::close_up(std::span<BodyPair> pairs, std::span<const std::uint
 void ContactSlots::lay_out(std::span<BodyPair> pairs, std::span<const std::uint32_t> batch_begin) {
   base_.assign(1, 0);
   taken_.clear();
+  without_.clear();
   most_ = 0;
   for (std::size_t batch = 0; batch + 1 < batch_begin.size(); ++batch) {
-    const std::size_t count = batch_begin[batch + 1] - batch_begin[batch],
-                      taken = slots_of(pairs.subspan(batch_begin[batch], count)),
-                      slots = taken + waiting_for(count);
-    append_to(taken_, static_cast<std::uint32_t>(taken));
+    const auto own = pairs.subspan(batch_begin[batch], batch_begin[batch + 1] - batch_begin[batch]);
+    append_to(taken_, slots_of(own));
+    append_to(without_, static_cast<std::uint32_t>(std::ranges::count(own, 0u, &BodyPair::slot_capacity)));
+    const std::size_t slots = taken_.back() + std::min(without_.back(), waiting_for(own.size()));
     append_to(base_, base_.back() + slots);
     most_ = std::max(most_, slots);
   }
@@ -89,7 +92,11 @@ void ContactSlots::widen(std::span<const std::uint32_t> wanted) {
   for (std::size_t batch = 0; batch < taken_.size(); ++batch) {
     const std::size_t needed = std::size_t{taken_[batch]} + wanted[batch];
     std::size_t slots = former_base_[batch + 1] - former_base_[batch];
-    if (needed > slots) slots = needed + waiting_for(needed);
+    if (needed > slots) {
+      // All are for pairs that had none, or there are pairs whose contacts grow in number.
+      const bool first = wanted[batch] <= without_[batch];
+      slots = needed + std::min(first ? without_[batch] - wanted[batch] : no_bound, waiting_for(needed));
+    }
     base_[batch + 1] = base_[batch] + slots;
     most_ = std::max(most_, slots);
   }
@@ -106,6 +113,7 @@ void ContactSlots::give(BodyPair& pair, std::size_t batch, std::uint32_t capacit
   over_all([&](auto& values, std::size_t per_slot) {
     move(values, per_slot, base_[batch] + pair.slot_start, pair.contact_count, base_[batch] + taken_[batch]);
   });
+  if (pair.slot_capacity == 0) --without_[batch];
   pair.slot_start = taken_[batch];
   pair.slot_capacity = capacity;
   taken_[batch] += capacity;

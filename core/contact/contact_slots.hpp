@@ -14,7 +14,7 @@ namespace talus {
 
 /// What is kept of contacts from step to step. Each batch of pairs has its slots side by side, and at their
 /// end some that wait for pairs which meet: of the pairs that are near each other most are apart, and a slot
-/// takes more memory than all else about a pair.
+/// takes more memory than all else about a pair. In a pile at rest nearly all have theirs, and none waits.
 class ContactSlots {
  public:
   /// What is kept: as many doubles of a contact as its law asks for, and whether reports are.
@@ -84,6 +84,7 @@ class ContactSlots {
   std::vector<std::size_t> base_{0};         ///< [batch + 1]
   std::vector<std::size_t> former_base_{0};  ///< while slots are moved
   std::vector<std::uint32_t> taken_;         ///< [batch] of its slots; the others wait
+  std::vector<std::uint32_t> without_;       ///< [batch] pairs that have had none
   std::size_t most_ = 0;
   InLines<double> history_;
   std::vector<ContactReport> reports_;

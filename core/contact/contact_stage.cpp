@@ -96,12 +96,12 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       keeps_stored_(scene.sleep.has_value()),
       search_(model),
       lightest_neighbour_(model.bodies.size(), std::numeric_limits<double>::infinity()),
-      heaviest_neighbour_(model.bodies.size(), 0.0),
       loads_(model, level, workers, scene.sleep.has_value()),
       corner_drift_(model.reference_x.size()),
       drift_(model.bodies.size()) {
   for (const Body& body : model.bodies) fixed_.push_back(body.kinematics == Kinematics::fixed);
   set_supports(model, settings_of(scene).supports);
+  heaviest_neighbour_.assign(holds_any() ? model.bodies.size() : 0, 0.0);
   if (scene.contact.component == nullptr) return;
   clear_depth_.reserve(model.piece_body.size());
   for (std::uint32_t p = 0; p < model.piece_body.size(); ++p) {
@@ -170,6 +170,7 @@ void ContactStage::set_supports(const Model& model, std::span<const Support> sup
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i)
     held_.push_back(model.moves_as_a_whole(i) && support_of(supports, i).all());
   if (held_ == former) return;
+  heaviest_neighbour_.clear();  // any may be near, until neighbours are sought
   for (BodyPair& pair : pairs_) pair.reduced_mass = reduced_mass(model, pair.a, pair.b);
   slack_ = -1;
 }

@@ -53,7 +53,7 @@ class ContactStage {
 
   /// [body] kg per metre of thickness, the lightest moving one near it; infinite if there is none.
   std::span<const double> lightest_neighbours() const { return lightest_neighbour_; }
-  /// The heaviest that is not held; 0 if there is none.
+  /// Of one that is held: the heaviest that is not; 0 if there is none. Empty where none is held.
   std::span<const double> heaviest_neighbours() const { return heaviest_neighbour_; }
 
   struct Conditions {
@@ -100,6 +100,7 @@ class ContactStage {
   void refuse_unsound_stiffness(const RegisteredComponent& law) const;
   void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
+  bool holds_any() const { return std::ranges::find(held_, 1) != held_.end(); }
   float reduced_mass(const Model& model, std::uint32_t a, std::uint32_t b) const;
   void shape_all(const Model& model, MotionState& motion);
   void shape_listed(const Model& model, MotionState& motion);

@@ -13,7 +13,7 @@ void ContactStage::exchange(Archive& archive, const Model& model) {
   archive.of_known_size(drift_);
   archive(searches_);
   archive.of_known_size(lightest_neighbour_);
-  archive.of_known_size(heaviest_neighbour_);
+  archive(heaviest_neighbour_);
   slots_.close_up(pairs_, batch_begin_);
   archive(pairs_);
   archive(piece_pairs_);
@@ -49,9 +49,11 @@ void ContactStage::bound_capacities() {
 /// in contact are found again by their bodies and pieces.
 bool ContactStage::fits(const Model& model) const {
   const std::size_t pairs = pairs_.size();
-  if (ask_again_.size() != pairs || approach_.size() != pairs ||
-      !(island_.empty() || island_.size() == model.bodies.size()))
-    return false;
+  if (ask_again_.size() != pairs || approach_.size() != pairs) return false;
+  const auto of_bodies = [&](const auto& values) {
+    return values.empty() || values.size() == model.bodies.size();
+  };
+  if (!of_bodies(island_) || !of_bodies(heaviest_neighbour_)) return false;
   for (const PiecePair& pieces : piece_pairs_) {
     if (pieces.a >= model.piece_body.size() || pieces.b >= model.piece_body.size()) return false;
   }

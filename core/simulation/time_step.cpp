@@ -79,6 +79,9 @@ class Crowd {
     return model_.moves_as_a_whole(index) && support_of(supports_, index).all();
   }
 
+  /// kg per metre of thickness, of those that are not held.
+  double heaviest() const { return heaviest_; }
+
   /// What a body can meet: all others, and itself where it may.
   Meetings met_by(std::uint32_t index) const {
     const Body& own = model_.bodies[index];
@@ -183,6 +186,7 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
                    const ContactStage& contacts) {
   const Crowd crowd(model, settings.supports, scene.surfaces.size());
+  heaviest_ = crowd.heaviest();
   // Bodies that vote differently, as far as they are compared.
   struct Different {
     std::uint32_t body;
@@ -191,6 +195,9 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
     std::optional<std::uint32_t> number;  ///< in ballots_
   };
   std::vector<Different> different;
+  // What is reserved and never used costs nothing; growing would leave holes in memory.
+  ballots_.reserve(model.moving_bodies.size());
+  voters_.reserve(model.moving_bodies.size());
   double longest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
@@ -215,8 +222,8 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
                      vote.gamma,
                      factor,
                      model.bodies[i].contact_mass,
-                     contacts.law() != nullptr ? met.dashpot_mass : 0,
-                     vote.elastic_lambda > 0.5 * vote.lambda};
+                     vote.elastic_lambda > 0.5 * vote.lambda,
+                     contacts.law() != nullptr && crowd.is_held(i)};
       here.spring_lambda = vote.spring_lambda;
       if (different.size() < most_compared) {
         different.push_back(here);
@@ -242,22 +249,33 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
   drop_beyond(rounded * longest);
 }
 
+namespace {
+
+/// Where most of the room is left over; what nobody has touched takes none.
+template <class T>
+void give_back(std::vector<T>& values) {
+  if (values.size() < values.capacity() / 2) values.shrink_to_fit();
+}
+
+}  // namespace
+
 /// Who never has a step so short leaves, and so do ballots of nobody else.
 void StepVote::drop_beyond(double longest) {
   const auto beyond = [&](const Ballot& ballot) {
     return std::min(longest_step_of(ballot), step_of(ballot, {1, 1})) > longest;
   };
+  constexpr std::uint32_t none = 0xFFFFFFFFu;
   std::vector<std::uint32_t> number(ballots_.size());
-  std::vector<Ballot> kept;
+  std::uint32_t kept = 0;
   for (std::size_t i = 0; i < ballots_.size(); ++i) {
-    number[i] = static_cast<std::uint32_t>(kept.size());
-    if (!beyond(ballots_[i])) kept.push_back(ballots_[i]);
+    number[i] = beyond(ballots_[i]) ? none : kept;
+    if (number[i] != none) ballots_[kept++] = ballots_[i];
   }
-  std::erase_if(voters_, [&](const Voter& voter) { return beyond(ballots_[voter.ballot]); });
+  ballots_.resize(kept);
+  std::erase_if(voters_, [&](const Voter& voter) { return number[voter.ballot] == none; });
   for (Voter& voter : voters_) voter.ballot = number[voter.ballot];
-  ballots_ = std::move(kept);
-  ballots_.shrink_to_fit();
-  voters_.shrink_to_fit();
+  give_back(ballots_);
+  give_back(voters_);
 }
 
 double StepVote::step_of(const Ballot& ballot, Shares shares) {
@@ -271,16 +289,16 @@ double StepVote::lambda_of(const Ballot& ballot, double share) {
   return ballot.lambda_alone + share * (ballot.lambda - ballot.lambda_alone);
 }
 
-double StepVote::longest_step_of(const Ballot& ballot) {
+double StepVote::longest_step_of(const Ballot& ballot) const {
   return step_of(ballot, shares_of(ballot, std::numeric_limits<double>::infinity(), 0));
 }
 
 /// Of the springs, where a body meets none lighter, and of the dashpots of one that is held, where it meets
 /// none heavier: they go with √m.
-StepVote::Shares StepVote::shares_of(const Ballot& ballot, double lightest, double heaviest) {
+StepVote::Shares StepVote::shares_of(const Ballot& ballot, double lightest, double heaviest) const {
   const double met = std::max(ballot.mass, heaviest);
   return {std::min(1.0, (1 + std::sqrt(ballot.mass / lightest)) / ballot.factor),
-          met < ballot.dashpot_mass ? std::sqrt(met / ballot.dashpot_mass) : 1};
+          ballot.held && met < heaviest_ ? std::sqrt(met / heaviest_) : 1};
 }
 
 template <class Share>

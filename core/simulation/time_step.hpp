@@ -56,14 +56,15 @@ class StepVote {
   struct Ballot {
     double lambda_alone, lambda;  ///< 1/s², without contacts, and with the springs times `factor`
     double gamma_alone, gamma;    ///< 1/s, without dashpots of contacts, and with all of them
-    double factor, mass, dashpot_mass;
+    double factor, mass;
     bool strained;  ///< see CriticalStep
+    bool held;      ///< its dashpots go by the heaviest that it may meet
   };
   struct Shares {
     double springs, dashpots;
   };
-  static Shares shares_of(const Ballot& ballot, double lightest, double heaviest);
-  static double longest_step_of(const Ballot& ballot);
+  Shares shares_of(const Ballot& ballot, double lightest, double heaviest) const;
+  double longest_step_of(const Ballot& ballot) const;
   static double lambda_of(const Ballot& ballot, double share);
   static double step_of(const Ballot& ballot, Shares shares);
   template <class Share>
@@ -76,6 +77,7 @@ class StepVote {
     std::uint32_t body, ballot;
   };
   std::vector<Voter> voters_;
+  double heaviest_ = 0;  ///< kg per metre of thickness, of all that a held one may meet
   double spring_dt_ = std::numeric_limits<double>::infinity();  ///< s, the shortest
   std::uint32_t spring_body_ = 0;
 };
