@@ -29,6 +29,7 @@ struct CornerContact {
   bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
   bool stands;                ///< on this side, not only on others that the same vertex was found at
   bool idle;                  ///< neither of the sides of its body that meet in it faces the side
+  bool bonded;                ///< by what has not broken yet
   Point before, after;        ///< tangents of the edges that meet in the vertex
 };
 
@@ -64,6 +65,7 @@ inline constexpr double near_by = 0.1;
 /// that off, so that it is seen to break.
 struct BondReach {
   double held, seen;
+  bool intact = false;
 };
 
 /// Vertices that stand on (or, within `bond_reach`, just above) a side of the other piece. A corner against a
@@ -88,7 +90,7 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, false, vertex->before,
+              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, false, false, vertex->before,
                vertex->after},
               found);
       }
@@ -155,6 +157,7 @@ class CornerFinder {
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
     contact.slack = std::min(sought, flush * edge);
+    contact.bonded = bond_reach.intact;
     bool at_cut = false;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (k == contact.side || other.length(k) == 0) continue;

@@ -33,7 +33,7 @@ inline double past_end(std::span<const PiecePairGeometry> pieces, const CornerCo
 /// How flat an edge lies on a side, cos 2β of the angle between them; 0 from 45° on.
 inline double flatness(Point edge, Point side) {
   const double cosine = -dot(edge, side);
-  return cosine > 0 ? std::max(0.0, 2 * cosine * cosine - 1) : 0;
+  return cosine > 0 ? std::clamp(2 * cosine * cosine - 1, 0.0, 1.0) : 0;
 }
 
 /// How much of its spring a vertex has on one face of a reflex corner, and what part of that goes by the
@@ -87,7 +87,13 @@ inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector
   for (CornerContact& contact : found) contact.tributary = contact.in_corner;
 }
 
-/// Behind one straight line the depths differ by rounding alone: there the vertex stands where its foot is.
+/// Whether two sides of a body of many elements may be one that has bent under its load.
+inline bool bends_little(const Piece& p, const Piece& q) {
+  constexpr double cosine = 0.9;
+  return p.is_strip() && q.is_strip() && dot(p.tangent(0), q.tangent(0)) > cosine;
+}
+
+/// Behind one straight line, and one that has bent inwards under load, the vertex stands where its foot is.
 /// Where it bears nothing it does not stand if there is another side near by.
 inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
                       const CornerContact& other) {
@@ -96,8 +102,13 @@ inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerCon
     if ((contact.idle ? other : contact).depth <= near) return other.idle;
   }
   const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
+  const auto side_of = [&](const CornerContact& one) -> const Piece& {
+    return pieces[one.entry].piece[1 - one.vertex_body];
+  };
+  const double apart = beside(contact) - beside(other);
+  if (apart != 0 && bends_little(side_of(contact), side_of(other))) return apart < 0;
   if (std::abs(contact.depth - other.depth) > 1e-9 * contact.tributary) return contact.depth < other.depth;
-  return beside(contact) < beside(other);
+  return apart < 0;
 }
 
 /// Past a cut a vertex stands in the reflex corner where that begins, and nowhere else: on its other face,

@@ -90,10 +90,12 @@ class CoveredSides {
     const bool is_flush = begins != nullptr && away(*begins) <= 2 * flush * length &&
                           (covers == nullptr || away(*begins) < away(*covers));
     const CornerOnSide* const next = is_flush ? begins : covers;
-    if (next == nullptr || !(end.depth > 0)) return;
+    if (next == nullptr) return;
+    const CornerContact& there = found_[next->contact];
+    if (!there.bonded && !(end.depth > 0)) return;
     const double share = is_flush ? 0 : std::clamp(away(*next) / length, 0.0, 1.0);
-    // Nothing is taken where the corner lifts off: the contact ends there without a jump.
-    const double pressed = std::clamp(2 * found_[next->contact].depth / end.depth, 0.0, 1.0);
+    // Nothing is taken where the corner lifts off: the contact ends there without a jump. A bond breaks.
+    const double pressed = there.bonded ? 1 : std::clamp(2 * there.depth / end.depth, 0.0, 1.0);
     end.tributary *= 1 - next->ends * pressed * (1 - share);
   }
 

@@ -162,7 +162,7 @@ class VertexEdge final : public ContactModel {
         if (bonded == touching) return BondReach{touching, touching};  // no need to know who is bonded
         const bool intact = std::ranges::any_of(
             work.old, [&](const SpringHistory& old) { return old.key == 1.0 + key && old.intact == 1; });
-        return intact ? BondReach{bonded, std::max(bonded, seen)} : BondReach{touching, touching};
+        return intact ? BondReach{bonded, std::max(bonded, seen), true} : BondReach{touching, touching};
       };
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }

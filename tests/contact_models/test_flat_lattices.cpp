@@ -63,6 +63,62 @@ TEST_CASE("A block of many elements stands on another with the stiffness of its 
   CHECK(std::abs(upper.rotation - lower.rotation) < 2e-6);
 }
 
+TEST_CASE("A corner a little past a node of the side below stands where its foot is", "[vertex_edge]") {
+  // The side bends inwards under the load, so that the corner is less deep behind what lies before the node.
+  const double past = GENERATE(1e-4, 5e-4, 9e-4);
+  const std::string upper = GENERATE(lattice(0.25), std::string(R"("cover": {"model": "block"})"));
+  CAPTURE(past, upper);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -10]";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+  text.interface = fmt::format(springs, "1e7", "1e7", "0");
+  const double row_at_the_top = 0.25 - 0.25 * std::sqrt(0.75);  // with nodes at 0.375 m on both sides
+  text.bodies =
+      box("lower", -1, -0.5, 1, 0, lattice(0.25, R"(, "fix": ["x", "y", "rotation"])", row_at_the_top)) +
+      "," + box("upper", past - 0.375, 0, past + 0.375, 0.5, upper + R"(, "fix": ["x", "rotation"])");
+  text.rest = R"("settle": {"duration": 2, "damping": "adaptive", "until": 1e-7},)";
+  text.time = R"({"end": 0.02})";
+  Simulation simulation(text.read(), {});
+  simulation.settle();
+  const double sink = 0.25 - simulation.body_motion(1).position.y;
+  CHECK(sink == Approx(2000 * 10 * 0.5 / 1e7).epsilon(0.02));
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.summary().largest_residual_share < 1e-3);
+}
+
+TEST_CASE("Bodies of many elements part at the strength of their joint, wherever its ends lie",
+          "[vertex_edge][bonds]") {
+  const double shift = GENERATE(0.0, 5e-4, 0.03);
+  const bool pulled = GENERATE(true, false);
+  for (const double share : {0.97, 1.03}) {
+    CAPTURE(shift, pulled, share);
+    const double mean = 2000 * 10 * 0.5;
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.gravity = pulled ? "[0, 10]" : "[10, 0]";
+    text.material =
+        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+    text.interface =
+        fmt::format(R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": {},
+        "normal_damping": 0.3, "tangential_damping": 0.3, "tensile_strength": {}, "cohesion": {})",
+                    pulled ? 30 : 0, pulled ? share * mean : 1e6, pulled ? 1e6 : share * mean);
+    text.bodies = box("lower", -1, -0.5, 1, 0, lattice(0.25, R"(, "fix": ["x", "y", "rotation"])")) + "," +
+                  box("upper", shift - 0.25, 0, shift + 0.25, 0.5,
+                      lattice(0.25, pulled ? R"(, "fix": ["x", "rotation"])" : R"(, "fix": ["rotation"])"));
+    text.rest = R"("settle": {"duration": 1, "damping": 300, "until": 1e-5},)";
+    text.time = R"({"end": 0.1})";
+    Simulation simulation(text.read(), {});
+    REQUIRE(simulation.settle());
+    while (simulation.advance()) {
+    }
+    const Vec2 velocity = simulation.body_motion(1).velocity;
+    CHECK((std::abs(pulled ? velocity.y : velocity.x) > 0.5) == (share < 1));
+  }
+}
+
 TEST_CASE("Stacks of bodies of many elements keep their energy, turned as well", "[vertex_edge]") {
   const double degrees = GENERATE(0.0, 20.0, 37.7), offset = GENERATE(0.0, 1e-4, 0.03);
   CAPTURE(degrees, offset);
