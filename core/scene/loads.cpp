@@ -35,6 +35,16 @@ void check_has_wave_speeds(Reading& reading, Section& section, std::optional<std
                                    taken.name));
 }
 
+/// Twice the impedance reflects a third of a wave.
+void check_absorbs_once(Reading& reading, Section& section, const AbsorbingSurface& one) {
+  const bool listed = std::ranges::any_of(reading.scene.absorbing, [&](const AbsorbingSurface& other) {
+    return other.body == one.body && other.surface_class == one.surface_class;
+  });
+  if (listed)
+    reading.mistakes.add(section.pointer_to("surface"),
+                         "the surface is listed already: expected each once, or its dashpots act twice");
+}
+
 PrescribedSurface read_one_prescribed(Reading& reading, Section& section) {
   PrescribedSurface one{};
   const auto body = take_body(reading, section);
@@ -200,6 +210,7 @@ void read_absorbing(Reading& reading, Section& root) {
               check_has_wave_speeds(reading, section, body);
               const auto surface = take_surface(reading, section, body);
               section.finish();
+              if (body && surface) check_absorbs_once(reading, section, {*body, *surface});
               reading.scene.absorbing.push_back({body.value_or(0), surface.value_or(0)});
               resolved.push_back(section.resolved);
             });

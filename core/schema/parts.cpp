@@ -374,7 +374,9 @@ Part monitor() {
           "monitor",
           {name_key("Head of the columns, as in name.ux [m]."),
            body_key("Name of the body."),
-           {"point", "m", "centre of mass", "[x, y]", "Point of the body at the start.", shape::point()},
+           {"point", "m", "centre of mass", "[x, y]",
+            "Point of the body at the start; where a discontinuity runs through it, of one of the two faces.",
+            shape::point()},
            {"quantities", "", R"(["ux", "uy", "vx", "vy", "speed", "rotation"])", "list", "What is recorded.",
             recorded}}};
 }

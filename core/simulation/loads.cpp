@@ -96,7 +96,7 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
 }
 
 void Loads::apply(MotionState& motion, const StepSpan& span, double dt) {
-  stored_ = applied_ = 0;
+  stored_ = applied_ = reactions_ = 0;
   apply_points(motion, span, dt);
   apply_surface_loads(motion, span, dt);
   apply_supports(motion, span.time);
@@ -115,6 +115,7 @@ void Loads::exchange(Archive& archive) {
   archive(work_);
   archive(stored_);
   archive(applied_);
+  archive(reactions_);
 }
 
 /// Trapezoidal rule, which is exact for the leapfrog: f_n works over half of the step behind and half of the
@@ -153,6 +154,7 @@ void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, doubl
     const Vec2 speed = velocity_at(motion, point.at);
     work_through(point.worker, force, {speed.x * dt, speed.y * dt});
     add_on_side(motion, point.at, force);
+    applied_ += size_of(force);
   }
 }
 
@@ -179,6 +181,7 @@ void Loads::apply_supports(MotionState& motion, double time) {
     }
     point.fresh = false;
     add_on_side(motion, point.at, {force[0], force[1]});
+    reactions_ += size_of({force[0], force[1]});
   }
 }
 
@@ -205,7 +208,6 @@ void Loads::add_on_side(MotionState& motion, const SideShare& at, Vec2 force) {
   const BoundarySide& side = sides_[at.side];
   motion.add_force(side.start, {(1 - at.lever) * force.x, (1 - at.lever) * force.y});
   motion.add_force(side.end, {at.lever * force.x, at.lever * force.y});
-  applied_ += size_of(force);
 }
 
 Vec2 Loads::displacement_at(const MotionState& motion, const SideShare& at) const {

@@ -21,9 +21,11 @@ class Loads {
 
   void exchange(Archive& archive);  ///< between steps
 
-  double work() const { return work_; }        ///< J/m since the last reset, by loads and moving supports
-  double stored() const { return stored_; }    ///< J/m in the penalty supports
-  double applied() const { return applied_; }  ///< N/m, sum of the magnitudes at the last apply()
+  double work() const { return work_; }      ///< J/m since the last reset, by loads and moving supports
+  double stored() const { return stored_; }  ///< J/m in the penalty supports
+  /// N/m, sums of the magnitudes at the last apply(): of loads, and of what penalty supports hold against.
+  double applied() const { return applied_; }
+  double reactions() const { return reactions_; }
   void reset_work() { work_ = 0; }
 
  private:
@@ -85,7 +87,7 @@ class Loads {
   std::vector<SurfacePoint> surface_points_;
   std::vector<SupportPoint> support_points_;
   std::vector<AbsorbingPoint> absorbing_points_;
-  double work_ = 0, stored_ = 0, applied_ = 0;
+  double work_ = 0, stored_ = 0, applied_ = 0, reactions_ = 0;
 };
 
 }  // namespace talus

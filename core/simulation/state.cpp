@@ -130,7 +130,8 @@ void Simulation::State::forces() {
   if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
   if (settling && scene.settle->until) {
     const double unbalanced = relaxation.unbalanced(model, mass, motion, stage.supports, pull);
-    unbalanced_share = unbalanced > 0 ? unbalanced / (Relaxation::weight(model, pull) + loads.applied()) : 0;
+    const double driving = Relaxation::weight(model, pull) + loads.applied();
+    unbalanced_share = unbalanced > 0 ? unbalanced / (driving > 0 ? driving : loads.reactions()) : 0;
   }
   const double damping = relaxation.damping(how, model, mass, motion, dt_behind, critical.lambda);
   if (stage_begins) {
@@ -351,7 +352,7 @@ void Simulation::State::make_plan(double end) {
   plan = {time, end, span / static_cast<double>(steps), steps, 0, target};
   // Of fixed steps that which limits the largest: what is left over at the end may be short.
   if (scene.time.dt && plan.dt > summary.dt)
-    limit = span < dt * (1 - rounding) ? Limit::output : Limit::scene;
+    limit = span < dt * (1 - rounding) && !(end < target) ? Limit::output : Limit::scene;
   summary.dt = std::max(summary.dt, plan.dt);
 }
 

@@ -129,6 +129,29 @@ TEST_CASE("what a support carries is not out of balance", "[simulation][relaxati
   }
 }
 
+TEST_CASE("what penalty supports push against each other is no load that a scene settles by",
+          "[simulation][relaxation]") {
+  WorkingScene text;
+  text.gravity = "[0, -10]";
+  text.bodies =
+      box("beam", 0, 0, 4, 1, R"("cover": {"model": "hexagonal", "size": 0.5}, "surfaces": {"wall": [3]})");
+  text.rest =
+      R"("prescribed": [{"body": "beam", "surface": "wall", "stiffness": 1e9, "displacement": [0, 0]}],
+                 "settle": {"duration": 3, "damping": "adaptive", "until": 0.01},)";
+  text.monitors = R"({"name": "beam", "body": "beam", "point": [4, 0.5]})";
+  const auto tip_after = [&](const char* until) {
+    WorkingScene settled = text;
+    settled.rest.replace(settled.rest.find("0.01"), 4, until);
+    Simulation simulation(settled.read(), {});
+    simulation.settle();
+    CHECK(simulation.summary().settle_steps > 100);
+    return simulation.monitor_motion(0).position.y - 0.5;
+  };
+  const double sag = tip_after("1e-6");
+  CHECK(sag < 0);
+  CHECK(tip_after("0.01") == Approx(sag).epsilon(0.02));
+}
+
 TEST_CASE("settling goes on however often it is left off", "[simulation][settle]") {
   WorkingScene text = resting(R"({"model": "rigid"})", "adaptive");
   text.rest = R"("settle": {"duration": 0.01, "damping": 10},)";

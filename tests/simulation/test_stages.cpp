@@ -487,7 +487,17 @@ TEST_CASE("a step longer than the time between outputs is told, and what shorten
   WorkingScene text;
   text.bodies = box("a", 0, 0, 1, 1, R"("velocity": [1, 0])");
   text.output = R"({"history": 0.001})";
-  for (const auto& [dt, told] : {std::pair{"0.01", true}, {"0.0005", false}}) {
+  struct Case {
+    const char *dt, *stages;
+    bool told;
+  };
+  // A step that ends with the output before a stage is no shorter for the others.
+  for (const auto& [dt, stages, told] :
+       {Case{"0.01", "", true},
+        {"0.0005", "", false},
+        {"0.0005", R"("stages": [{"name": "later", "from": 1e-5, "set": {"/damping": 1}}],)", false}}) {
+    CAPTURE(dt, stages);
+    text.rest = stages;
     text.time = std::string(R"({"end": 0.0022, "dt": )") + dt + "}";  // the last interval is a short one
     const RunSummary summary = run_to_end(text).summary();
     CHECK((summary.dt_limiter == "time.dt of the scene") == !told);
