@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string_view>
+#include <system_error>
 
 namespace talus::conformance {
 namespace {
@@ -37,12 +40,23 @@ constexpr Sample by_key[] = {{"young_modulus", 2e9},  {"poisson_ratio", 0.3},
                              {"size", 0.25},          {"friction_coefficient", 0.5},
                              {"normal_damping", 0.2}, {"tangential_damping", 0.3}};
 
-/// 1 MPa at an overlap of 1 mm, whatever the power of the depth; other quantities at the size they have
-/// there.
-constexpr Sample by_unit[] = {{"Pa/m", 1e9},      {"Pa/m2", 1e12}, {"Pa/m^2", 1e12}, {"Pa/m²", 1e12},
-                              {"Pa/m3", 1e15},    {"Pa", 1e6},     {"N/m", 1e6},     {"N/m2", 1e9},
-                              {"N/m per m", 1e9}, {"deg", 25},     {"m", 1e-3},      {"s", 1e-4},
-                              {"Pa s/m", 1e4},    {"J/m2", 1e3},   {"kg/m3", 2000},  {"m/s", 1}};
+/// Of quantities at the size that they have at an overlap of 1 mm under 1 MPa.
+constexpr Sample by_unit[] = {{"Pa/m²", 1e12},    {"Pa", 1e6},   {"N/m", 1e6},    {"N/m2", 1e9},
+                              {"N/m per m", 1e9}, {"deg", 25},   {"m", 1e-3},     {"s", 1e-4},
+                              {"Pa s/m", 1e4},    {"J/m2", 1e3}, {"kg/m3", 2000}, {"m/s", 1}};
+
+/// 1 MPa at an overlap of 1 mm, whatever the power of the depth: "Pa/m", "Pa/m2", "Pa/m^1.5".
+std::optional<double> by_power_of_depth(std::string_view unit) {
+  constexpr std::string_view lead = "Pa/m";
+  if (!unit.starts_with(lead)) return std::nullopt;
+  unit.remove_prefix(lead.size());
+  if (unit.empty()) return 1e9;
+  if (unit.starts_with('^')) unit.remove_prefix(1);
+  double power = 0;
+  const auto [end, problem] = std::from_chars(unit.data(), unit.data() + unit.size(), power);
+  if (problem != std::errc{} || end != unit.data() + unit.size()) return std::nullopt;
+  return 1e6 * std::pow(1e3, power);
+}
 
 }  // namespace
 
@@ -66,7 +80,7 @@ Values undamped_interface() {
 double sample_value(const Parameter& parameter) {
   if (!std::isnan(parameter.default_value)) return parameter.default_value;
   if (parameter.kind != ParameterKind::number) return 0;
-  double value = 0.5;  // of a pure number
+  double value = by_power_of_depth(parameter.unit).value_or(0.5);  // of a pure number
   for (const Sample& sample : by_unit) {
     if (sample.word == parameter.unit) value = sample.value;
   }

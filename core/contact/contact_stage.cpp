@@ -126,14 +126,22 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
     first_piece_.push_back(body.piece_begin);
   }
   set_interfaces(scene.interface_values);
-  refuse_unsound_stiffness(*scene.contact.component);
+  refuse_unsound_interfaces(*scene.contact.component);
   if (scene.roles_by_priority) {
     for (const SceneBody& body : scene.bodies) priority_.push_back(body.priority);
   }
 }
 
 /// The time step is voted by them. Stages write other numbers into the same formulas.
-void ContactStage::refuse_unsound_stiffness(const RegisteredComponent& law) const {
+void ContactStage::refuse_unsound_interfaces(const RegisteredComponent& law) const {
+  for (std::size_t i = 0; i < interface_values_.size(); ++i) {
+    if (!std::isnan(interface_values_[i])) continue;
+    const Parameter& parameter = law.component->interface_parameters[i % interfaces_.parameter_count];
+    throw PluginError(
+        fmt::format("{}: contact law '{}' prepared {} from '{}' of an interface; wanted a number; "
+                    "mend the law",
+                    law.file.string(), law.component->name, interface_values_[i], parameter.key));
+  }
   for (std::size_t at = 0; at < interface_values_.size(); at += interfaces_.parameter_count) {
     const ContactStiffness found = law_->stiffness(&interface_values_[at], 1);
     for (const double value :
@@ -353,7 +361,8 @@ std::uint32_t ContactStage::first_unsound(std::size_t begin, std::span<const std
                                           const Workspace& found) {
   for (const std::uint32_t i : active) {
     const PairReport& r = found.reports[i];
-    if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power) || std::isnan(r.gap))
+    if (!std::isfinite(r.penetration + r.stored + r.slip_loss + r.damping_power + r.damping_force) ||
+        std::isnan(r.gap))
       return static_cast<std::uint32_t>(begin + i);
   }
   return no_pair;

@@ -97,7 +97,7 @@ class ContactStage {
   static constexpr float in_this_step = -1;  ///< of ask_again_: less than any way
   static constexpr kernels::Way no_way{0, in_this_step, in_this_step};
 
-  void refuse_unsound_stiffness(const RegisteredComponent& law) const;
+  void refuse_unsound_interfaces(const RegisteredComponent& law) const;
   void keep_touching(const Model& model);
   void note_neighbours(const Model& model);
   bool holds_any() const { return std::ranges::find(held_, 1) != held_.end(); }

@@ -25,6 +25,11 @@ struct PairSum {
   bool finite = true;
 };
 
+bool is_finite(const ContactReport& report) {
+  return std::isfinite((report.x + report.y + report.px + report.py) +
+                       (report.tx + report.ty + report.penetration + report.slipping + report.moment));
+}
+
 }  // namespace
 
 /// A pair that asks for room without end.
@@ -77,6 +82,8 @@ LawFault ContactStage::fault_of(const Model& model, const MotionState& motion, c
   for (std::size_t i = wave.begin; i < wave.end; ++i) {
     const BodyPair& pair = pairs_[i];
     if (pair.contact_count == 0 || (!island_.empty() && sleeps(pair))) continue;
+    if (!std::ranges::all_of(reports_of(i), is_finite))
+      return {"a contact report that is no number", true, pair.a, pair.b};
     const PairSum sum = sum_of(pair);
     if (!sum.finite) return {"a load that is no number", true, pair.a, pair.b};
     const double force = std::hypot(sum.x, sum.y), moment = std::abs(sum.moment);

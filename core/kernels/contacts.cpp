@@ -93,7 +93,8 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
     pair.contact_count = contacts;
     const double power = report.damping_power;
     FormerDashpots now;
-    if (report.damping_force > 0) {  // at the start of a run without power, for nothing has moved yet
+    // At the start of a run without power, for nothing has moved yet. What is no number goes on as such.
+    if (!(report.damping_force <= 0)) {
       now = {static_cast<float>(power), report.damping_force};
       carried_on += former.force * (power / now.force);
     }
@@ -108,7 +109,7 @@ void close_all(const PairBooks& given, const std::uint32_t* active, std::size_t 
     }
   }
   const Row all = touching + other;
-  closed.finite = closed.finite && std::isfinite((all[0] + all[1]) + (all[2] + all[3]));
+  closed.finite = closed.finite && std::isfinite((all[0] + all[1]) + (all[2] + all[3]) + carried_on);
   totals.penetration = penetration;
   totals.stored += all[1];
   totals.slip_loss += all[2];

@@ -157,7 +157,8 @@ void check_masses(const Model& model, const Body& body, const SceneBody& scene_b
     tied[model.steady[s].patch - ranges.patch_begin] = std::isinf(model.steady[s].inertia) ? 1 : 0;
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     if (tied[p - ranges.patch_begin] != 0 || model.patch_mass[p] > 0) continue;
-    throw PluginError(fmt::format("cover '{}' gives patch {} of body '{}' a mass of {:.3g} kg/m",
+    throw PluginError(fmt::format("{}: cover '{}' gives patch {} of body '{}' a mass of {:.3g} kg/m",
+                                  scene_body.cover.component->file.string(),
                                   scene_body.cover.component->component->name, p - ranges.patch_begin,
                                   scene_body.name, model.patch_mass[p]));
   }

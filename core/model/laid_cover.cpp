@@ -124,7 +124,9 @@ std::vector<std::pair<Vec2, Vec2>> sides_of(const GivenShape& given) {
 /// Contact sees nothing of a body but its boundary: it has to be where the body is, all of it, and the right
 /// way round.
 std::string fault_of_boundary(const LaidCover& cover, const GivenShape& given) {
-  if (cover.loops.empty()) return "it has several elements and gave no boundary";
+  if (cover.loops.empty())
+    return fmt::format("it has {} elements and {} patches, which takes a boundary, and gave none",
+                       cover.elements.size(), cover.patches.size());
   const std::vector<std::pair<Vec2, Vec2>> sides = sides_of(given);
   const auto [left, right] = std::minmax_element(given.x.begin(), given.x.end());
   const auto [low, high] = std::minmax_element(given.y.begin(), given.y.end());

@@ -174,6 +174,12 @@ std::optional<std::string> reason_to_refuse(const Component& component) {
         "talus::destroy_component and rebuild the library",
         component.create == nullptr ? "create" : "destroy");
   }
+  constexpr std::uint32_t known = trait::has_potential | trait::pulls | trait::spread_springs;
+  if ((component.traits & ~known) != 0) {
+    return fmt::format(
+        "found the traits {:#x}, wanted a sum of those of talus::trait; correct it and rebuild the library",
+        component.traits);
+  }
   if (component.kind != ComponentKind::contact_model && component.interface_parameter_count != 0) {
     return fmt::format(
         "found interface parameters in a {}, wanted them in contact laws only; remove them and "

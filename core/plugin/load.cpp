@@ -88,6 +88,9 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
         "found a file that the system cannot load: {}; wanted a talus plugin with nothing "
         "undefined; rebuild it on this machine, linked with what it uses",
         loader_words(trouble.what()));
+  } catch (...) {
+    return "found constructors of static objects that throw what is no std::exception, wanted a plugin that "
+           "loads; mend it and rebuild the library";
   }
   if (auto reason = reason_to_refuse(*library)) return reason;
   if (auto reason = reason_of_clash(registry, *library)) return reason;

@@ -23,7 +23,20 @@ TEST_CASE("A run stops with words when a law breaks the rules of loads", "[conta
   CHECK_THAT(trouble_of("nan_load"),
              Contains("a load that is no number between 'slab' at") && Contains("'block' at"));
   CHECK_THAT(trouble_of("nan_report"), Contains("a report that is no number between"));
+  CHECK_THAT(trouble_of("nan_dashpot"), Contains("a report that is no number between"));
+  CHECK_THAT(trouble_of("nan_contact"), Contains("a contact report that is no number between"));
   CHECK_THAT(trouble_of("past_the_end"), Contains("a load written past the last corner of all pairs"));
   CHECK_THAT(trouble_of("one_sided"), Contains("leave a force of 1 N/m over, of 1 between"));
   CHECK_THAT(trouble_of("couple"), Contains("leave a moment of 1 N over"));
+}
+
+TEST_CASE("A law that prepares an interface by what is no number is refused with the parameter",
+          "[contact]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
+                                                  "--set", "/contact/model=nan_interface"});
+  CHECK(call.code == 3);
+  CHECK_THAT(call.err,
+             Contains("libmisbehaving.so: contact law 'nan_interface' prepared nan from 'strength'"));
 }

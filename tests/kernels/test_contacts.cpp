@@ -209,6 +209,12 @@ TEST_CASE("a report that is no number is told, of pairs that touch and of others
         CHECK_FALSE(got.closed[0].finite);
         CHECK(got.closed[1].finite);
       }
+      if (pair == 4) continue;  // no dashpot
+      SomePairs got(9);
+      got.reports[pair].damping_force = static_cast<float>(no_number);
+      got.close(static_cast<SimdLevel>(level), numbers(got.pairs.size()));
+      CHECK_FALSE(got.closed[0].finite);
+      CHECK(got.closed[1].finite);
     }
   }
 }

@@ -5,7 +5,7 @@
 
 namespace {
 
-enum class Slip { nan_load, nan_report, past_the_end, one_sided, couple };
+enum class Slip { nan_load, nan_report, nan_contact, nan_dashpot, past_the_end, one_sided, couple };
 
 /// Says of every pair that it touches, without a load but for one slip.
 template <Slip slip>
@@ -27,6 +27,9 @@ class Misbehaving : public SilentLaw {
       for (std::uint32_t load = pieces.load_start; load < end; ++load) loads.corner[load] = {0, 0};
       if (slip == Slip::nan_load) loads.corner[of_b].y = not_a_number;
       if (slip == Slip::nan_report) report.stored = not_a_number;
+      if (slip == Slip::nan_dashpot) report.damping_force = std::numeric_limits<float>::quiet_NaN();
+      if (slip == Slip::nan_contact && pair.slot_capacity > 0)
+        loads.reports[pair.slot_start].px = not_a_number;
       if (slip == Slip::past_the_end) loads.corner[end].x = 0;
       if (slip == Slip::one_sided) loads.corner[of_b].y = 1;
       if (slip == Slip::couple) loads.corner[of_b].x = 1, loads.corner[of_b + 2].x = -1;
@@ -34,11 +37,34 @@ class Misbehaving : public SilentLaw {
   }
 };
 
-constexpr talus::Component components[] = {
-    law<Misbehaving<Slip::nan_load>>("nan_load"), law<Misbehaving<Slip::nan_report>>("nan_report"),
-    law<Misbehaving<Slip::past_the_end>>("past_the_end"), law<Misbehaving<Slip::one_sided>>("one_sided"),
-    law<Misbehaving<Slip::couple>>("couple")};
+/// Silent, and what it makes of its one parameter is no number.
+class Unprepared : public SilentLaw {
+ public:
+  using SilentLaw::SilentLaw;
+  void prepare_interface(double* values) const noexcept override {
+    values[0] = std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+constexpr talus::Parameter strength[] = {
+    talus::number("strength", "Pa", 1, 0, talus::unbounded, "What it prepares.")};
+
+constexpr talus::Component unprepared() {
+  talus::Component component = law<Unprepared>("nan_interface");
+  component.interface_parameters = strength;
+  component.interface_parameter_count = 1;
+  return component;
+}
+
+constexpr talus::Component components[] = {law<Misbehaving<Slip::nan_contact>>("nan_contact"),
+                                           law<Misbehaving<Slip::nan_dashpot>>("nan_dashpot"),
+                                           unprepared(),
+                                           law<Misbehaving<Slip::nan_load>>("nan_load"),
+                                           law<Misbehaving<Slip::nan_report>>("nan_report"),
+                                           law<Misbehaving<Slip::past_the_end>>("past_the_end"),
+                                           law<Misbehaving<Slip::one_sided>>("one_sided"),
+                                           law<Misbehaving<Slip::couple>>("couple")};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 5);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 8);

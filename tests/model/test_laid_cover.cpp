@@ -134,7 +134,7 @@ TEST_CASE("A cover that does not fit its body is refused, and the library, the b
       {Flaw::empty, "it made no element"},
       {Flaw::unknown_patch, "an element names patch 9 of 4"},
       {Flaw::half_the_area, "its elements have an area of 0.5 m2, the body has 1 m2"},
-      {Flaw::no_boundary, "it has several elements and gave no boundary"},
+      {Flaw::no_boundary, "it has 2 elements and 4 patches, which takes a boundary, and gave none"},
       {Flaw::boundary_elsewhere,
        "its boundary at (9.5, -0.5) m from the centroid is 10 m off side 0, which it is to follow"},
       {Flaw::boundary_reversed, "its boundary surrounds -1 m2, the body has 1 m2"},

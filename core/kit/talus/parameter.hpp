@@ -16,8 +16,8 @@ inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// One thing a user can set, declared once. The table validates the scene, feeds the component, and is the
-/// text of `talus describe`. Values arrive in declared order as doubles, in SI; a parameter whose unit is
-/// "deg" is written in degrees by the user and arrives in radians.
+/// text of `talus describe`. Values arrive in declared order as doubles, as the user wrote them, so units are
+/// those of SI, without prefixes; "deg" alone is converted: written in degrees, it arrives in radians.
 struct Parameter {
   const char* key;
   const char* unit;  ///< "Pa/m", "deg", "-" for a pure number
