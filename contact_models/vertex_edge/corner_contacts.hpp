@@ -152,8 +152,9 @@ class CornerFinder {
     const double sought = std::max(contact.depth, bond_reach.held);
     double edge = vertex.shorter;
     if (!vertex.divided && (nearest > edge || sought > flush * edge))
-      edge = shorter_edge(own, v);   // or it need not be known
-    if (!(nearest <= edge)) return;  // beyond its own edges a vertex sees the far side
+      edge = shorter_edge(own, v);  // or it need not be known
+    // Beyond its own edges a vertex sees the far side, but a strip ends before that.
+    if (!(nearest <= (other.is_strip() ? std::max(edge, other.length(0)) : edge))) return;
     // Sides that look away bound the stretch of the edge; a corner flush with the end of the edge still
     // stands on it.
     contact.slack = std::min(sought, flush * edge);
@@ -168,7 +169,7 @@ class CornerFinder {
       const double past = -other.depth(k, at);
       at_cut = at_cut || (other.is_cut(k) && past >= -1e-9 * edge);
       if (!(past > contact.slack)) continue;
-      if (own.is_strip() && other.is_strip() && stays_before(own, other, contact)) continue;
+      if (own.is_strip() && other.is_strip() && stays_before(own, other, contact, k)) continue;
       if (!ends_side || past > edge || !(contact.depth > 0)) return;
       contact.past_cut = true;
     }
@@ -205,12 +206,15 @@ class CornerFinder {
   /// Whether the end of a strip, not deep behind the side that its foot lies on, stands there also past where
   /// the strip behind that ends, since the boundary turns outward: the strip behind the corner bears nothing
   /// of it.
-  static bool stays_before(const Piece& own, const Piece& other, const CornerContact& contact) {
-    if (!(dot(own.normal(0), other.normal(0)) < -upright) || contact.depth > near_by * own.length(0))
+  static bool stays_before(const Piece& own, const Piece& other, const CornerContact& contact,
+                           std::uint32_t bisector) {
+    if (!(dot(own.normal(0), other.normal(0)) < -upright) ||
+        contact.depth > near_by * std::max(own.length(0), other.length(0)))
       return false;
     const double lever = other.lever(0, own.at(contact.vertex)), slack = contact.slack / other.length(0);
     if (!(lever >= -slack && lever <= 1 + slack)) return false;
-    const Point beyond = tangent_beyond(other, lever > 0.5 ? 1 : 0);
+    const Point along = other.tangent(0), across = other.tangent(bisector);
+    const Point beyond = along - 2 * dot(across, along) * across;
     return is_idle(own, contact.vertex, {beyond.y, -beyond.x});
   }
 

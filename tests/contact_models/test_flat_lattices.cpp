@@ -89,6 +89,26 @@ TEST_CASE("A corner a little past a node of the side below stands where its foot
   CHECK(simulation.summary().largest_residual_share < 1e-3);
 }
 
+TEST_CASE("A side shorter than the overlap, as a lattice cuts it off, spoils no support", "[vertex_edge]") {
+  // The last side of the base is of 1.3 mm: what stands 7 mm deep above it is nearer to the flank.
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.gravity = "[0, -10]";
+  text.material =
+      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+  text.interface = fmt::format(springs, "1e7", "1e7", "0");
+  text.bodies = box("base", -0.37, -1, 0.21, 0, lattice(0.25, R"(, "fix": ["x", "y", "rotation"])")) + "," +
+                box("block", -0.5, 0, 0.5, 1, lattice(0.25, R"(, "fix": ["x"])"));
+  text.rest = R"("settle": {"duration": 3, "damping": 60},)";
+  text.time = R"({"end": 0.09})";
+  Simulation simulation(text.read(), {});
+  simulation.settle();
+  while (simulation.advance()) {
+  }
+  CHECK(simulation.summary().largest_residual_share < 1e-3);
+  CHECK(std::abs(simulation.body_motion(1).velocity.y) < 1e-6);
+}
+
 TEST_CASE("Bodies of many elements part at the strength of their joint, wherever its ends lie",
           "[vertex_edge][bonds]") {
   const double shift = GENERATE(0.0, 5e-4, 0.03);
