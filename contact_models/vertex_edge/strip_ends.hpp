@@ -114,8 +114,28 @@ class CoveredSides {
       const double away = (other.along - corner.along) * (corner.forward ? 1 : -1);
       if (away > length / 2) covered = std::min(covered, away);
     }
-    if (covered == nothing) covered = std::min(whole, length);
+    if (covered == nothing) covered = reach_of(corner, whole);
     contact.tributary += corner.ends * std::max(0.0, covered) / 2;
+  }
+
+  /// m, how far the contact goes on from a corner towards an end of the side that has lifted off: to where the
+  /// line through the corner and the furthest vertex that still stands there comes up; along its own side, if
+  /// there is none.
+  double reach_of(const CornerOnSide& corner, double whole) const {
+    const CornerContact& contact = found_[corner.contact];
+    const double least = std::min(whole, own(contact).length(0));
+    double furthest = 0, depth = 0;
+    for (const CornerContact& other : found_) {
+      if (!is_between_strips(other) || other.vertex_body != contact.vertex_body ||
+          side_of(other).first_corner() != corner.side_of)
+        continue;
+      const double along = other.lever * side_of(other).length(0) - corner.along,
+                   away = corner.forward ? along : -along;
+      if (away > furthest) furthest = away, depth = other.depth;
+    }
+    if (!(furthest > 0 && contact.depth > 0)) return least;
+    const double rise = contact.depth - depth;
+    return rise > 0 ? std::clamp(furthest * contact.depth / rise, least, whole) : whole;
   }
 
   /// Whether a corner lies on a side of `body`.
