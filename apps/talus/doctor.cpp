@@ -55,6 +55,11 @@ nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
     if (std::filesystem::exists(folder / of_many))
       throw InputError(fmt::format("'{}' holds several runs: name the folder of one in it", folder.string()));
   }
+  if (!std::filesystem::exists(folder / "run.json") && std::filesystem::exists(checkpoint_file(folder)))
+    throw InputError(fmt::format(
+        "'{0}' holds a run that was broken off before it could be recorded: `talus resume {0}` goes "
+        "on with it from its checkpoint",
+        folder.string()));
   auto record = read_run_record(folder);
   const bool settled = !record.contains("settling_t [s]");
   fmt::print("{}: {} at t = {:.9g} s{} after {} steps\n", folder.string(),

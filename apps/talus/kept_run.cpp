@@ -3,8 +3,10 @@
 #include "scene_options.hpp"
 
 #include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
+#include "scene/files.hpp"
 #include "text/shell_word.hpp"
 
 #include <fmt/format.h>
@@ -94,6 +96,11 @@ Scene read_again(const Checkpoint& checkpoint, Registry& registry, bool allow_pl
 Scene scene_of(const Checkpoint& checkpoint, Registry& registry, bool allow_plugins, const Log& log) {
   Scene scene = read_again(checkpoint, registry, allow_plugins);
   for (const std::string& warning : scene.warnings) log.warning(warning);
+  if (is_file(checkpoint.scene_file) && read_whole_file(checkpoint.scene_file) != checkpoint.scene_text)
+    log.warning(
+        fmt::format("'{}' has changed since the run was started: it goes on with the scene of then; run "
+                    "the scene anew for what it says now",
+                    checkpoint.scene_file.string()));
   check_libraries(checkpoint, scene);
   check_files(checkpoint, scene);
   return scene;

@@ -109,7 +109,8 @@ void warn_of_run(const Scene& scene, const Safety& safety) {
   if (!stood.came_to_rest.empty())
     print_warning(fmt::format(
         "at {:.4g} these stand only after they moved by a hundredth of their width or more: where "
-        "they met something that stops them, what they slide on bears less than the factor says: {}",
+        "they met something that stops them, what they slide on bears less than the factor says; where they "
+        "lean on contacts that give, it bears more, and stiffer ones show how much: {}",
         stood.factor, listed(names_of(scene, stood.came_to_rest))));
   if (stood.moving_little.empty()) return;
   print_warning(

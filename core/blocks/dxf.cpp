@@ -72,6 +72,7 @@ class Parser {
     do {
       if (code_ == 0 && value_ == "EOF") break;
       if (code_ == 9 && value_ == "$INSUNITS" && next() && code_ == 70) drawing_.units = flags();
+      note_layer();
       if (code_ != 2 || value_ != "ENTITIES") continue;
       has_entities = true;
       read_entities();
@@ -122,6 +123,16 @@ class Parser {
     return static_cast<int>(written);
   }
 
+  /// Of the table of layers, which stands before the entities: those that CAD does not show.
+  void note_layer() {
+    constexpr int frozen = 1;
+    if (code_ == 0) of_layer_ = value_ == "LAYER";
+    if (!of_layer_) return;
+    if (code_ == 2) layer_ = value_;
+    if ((code_ == 62 && number() < 0) || (code_ == 70 && (flags() & frozen) != 0))
+      drawing_.hidden_layers.insert(text_of(layer_));
+  }
+
   /// Ends on ENDSEC.
   void read_entities() {
     advance();
@@ -151,6 +162,7 @@ class Parser {
     while (code_ != 0) {
       if (code_ == 8) layer_ = value_;
       if (code_ == 67 && number() != 0) paper_ = true;
+      if (code_ == 60 && number() != 0) invisible_ = true;
       take(code_);
       advance();
     }
@@ -158,7 +170,8 @@ class Parser {
 
   void begin_entity() {
     layer_ = "0";
-    paper_ = false;
+    paper_ = invisible_ = false;
+    arc_line_ = 0;
   }
 
   void check_plane() const {
@@ -166,8 +179,15 @@ class Parser {
       fail("the polyline stands in a plane of its own (code 230): expected 1, the plane of the drawing");
   }
 
-  void check_bulge() const {
-    if (code_ == 42 && number() != 0) fail("the polyline has an arc (code 42): draw it as straight lines");
+  /// An arc leads from a vertex to the next, and is none where no other comes.
+  void note_arc() {
+    if (code_ == 42 && number() != 0) arc_line_ = line_;
+  }
+
+  void refuse_arc() {
+    if (arc_line_ == 0) return;
+    line_ = arc_line_;
+    fail("the polyline has an arc (code 42): draw it as straight lines");
   }
 
   void read_line() {
@@ -191,12 +211,16 @@ class Parser {
     bool closed = false;
     read_groups([&](int code) {
       if (code == 70) closed = (flags() & closed_flag) != 0;
-      if (code == 10) points.push_back({number(), 0});
+      if (code == 10) {
+        refuse_arc();
+        points.push_back({number(), 0});
+      }
       if (code == 20 && points.empty()) fail("a y (code 20) stands before the first x (code 10)");
       if (code == 20) points.back().y = number();
-      check_bulge();
+      note_arc();
       check_plane();
     });
+    if (closed) refuse_arc();
     keep(std::move(points), closed, "LWPOLYLINE", true);
   }
 
@@ -209,10 +233,11 @@ class Parser {
       check_plane();
     });
     const std::string_view layer = layer_;
-    const bool paper = paper_;
+    const bool paper = paper_, invisible = invisible_;
     std::optional<double> height;
     bool level = true;
     while (value_ == "VERTEX") {
+      refuse_arc();
       Vec2 point;
       double z = 0;
       bool of_frame = false;
@@ -221,7 +246,7 @@ class Parser {
         if (code == 20) point.y = number();
         if (code == 30) z = number();
         if (code == 70) of_frame = (flags() & frame_of_spline) != 0;
-        check_bulge();
+        note_arc();
       });
       if (of_frame) continue;
       points.push_back(point);
@@ -232,6 +257,8 @@ class Parser {
     read_groups([](int) {});
     layer_ = layer;
     paper_ = paper;
+    invisible_ = invisible;
+    if ((kind & closed_flag) != 0) refuse_arc();
     if ((kind & mesh) != 0 || ((kind & in_space) != 0 && !level)) return pass_over("POLYLINE");
     keep(std::move(points), (kind & closed_flag) != 0, "POLYLINE", level);
   }
@@ -240,6 +267,10 @@ class Parser {
 
   void keep(std::vector<Vec2> points, bool closed, const char* kind, bool level) {
     if (paper_) return pass_over(kind);
+    if (invisible_) {
+      ++drawing_.passed_over[fmt::format("{} invisible", kind)];
+      return;
+    }
     if (closed && !points.empty()) points.push_back(points[0]);
     const auto same = [](Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
@@ -257,7 +288,10 @@ class Parser {
   int code_ = 0;
   std::string_view value_;
   std::string_view layer_;
-  bool paper_ = false;  ///< whether the entity stands on a sheet, not in the model
+  bool of_layer_ = false;     ///< whether an entry of the table of layers is read
+  bool paper_ = false;        ///< whether the entity stands on a sheet, not in the model
+  bool invisible_ = false;    ///< whether the entity is hidden
+  std::size_t arc_line_ = 0;  ///< where an arc begins that needs another vertex; 0: none does
   DxfDrawing drawing_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@ struct DxfDrawing {
   int units = 0;                           ///< $INSUNITS of the header: 0 none, 6 metres
   std::map<std::string, int> passed_over;  ///< how often entities of other kinds stand in it
   std::map<std::string, int> flattened;    ///< how often lines that are taken leave the plane
+  std::set<std::string> hidden_layers;     ///< that are switched off or frozen, whatever stands on them
 };
 
 /// Reads LINE, POLYLINE and LWPOLYLINE entities of model space from a DXF file (text), in the order of the

@@ -138,6 +138,12 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
     }
     joints.cuts.push_back({line.points, joints.number_of(line.layer == "0" ? "" : line.layer), true});
   }
+  for (const std::string& layer : drawing.hidden_layers) {
+    if (std::ranges::find(drawing.lines, layer, &DxfLine::layer) != drawing.lines.end())
+      joints.warnings.push_back(
+          fmt::format("{}: layer '{}' is switched off or frozen there, and its lines are joints all the same",
+                      file, layer));
+  }
   for (const auto& [kind, count] : drawing.passed_over)
     joints.warnings.push_back(fmt::format("{}: {} of the kind {} passed over", file, count, kind));
   for (const auto& [kind, count] : drawing.flattened)

@@ -137,7 +137,12 @@ class InterfaceRows {
   explicit InterfaceRows(std::vector<const Component*> laws) : laws_(std::move(laws)) {
     for (const Component* law : laws_) {
       for (const Key& key : interface_keys_of(*law)) {
-        if (!holds(common_, key.name)) declared_by_[key.name].push_back(law->name);
+        if (holds(common_, key.name)) continue;
+        Declared& declared = declared_by_[key.name];
+        declared.laws.push_back(law->name);
+        const OrderedJson property = property_of(key);
+        if (std::ranges::find(declared.properties, property) == declared.properties.end())
+          declared.properties.push_back(property);
       }
     }
   }
@@ -152,7 +157,11 @@ class InterfaceRows {
         add_keys(row, {key});
       }
     }
-    for (const auto& [name, by] : declared_by_) row["properties"][name] = true;
+    for (const auto& [name, declared] : declared_by_) {
+      const bool one = declared.properties.size() == 1;
+      row["properties"][name] =
+          one ? declared.properties[0] : OrderedJson{{"anyOf", OrderedJson(declared.properties)}};
+    }
     return row;
   }
 
@@ -166,7 +175,7 @@ class InterfaceRows {
       add_unread(row, keys);
       all.push_back(where_contact(model_is(*law), row));
     }
-    for (const auto& [name, by] : declared_by_) all.push_back(only_with(name, by));
+    for (const auto& [name, declared] : declared_by_) all.push_back(only_with(name, declared.laws));
     OrderedJson unread{{"properties", OrderedJson::object()}};
     add_unread(unread, {});
     all.push_back({{"if", {{"not", shape::required({"contact"})}}},
@@ -195,7 +204,12 @@ class InterfaceRows {
 
   std::vector<const Component*> laws_;
   std::vector<Key> common_ = common_interface_keys();
-  std::map<std::string, std::vector<std::string>> declared_by_;
+  /// A key that is not common to all, and what may stand under it by one law or the other.
+  struct Declared {
+    std::vector<std::string> laws;
+    std::vector<OrderedJson> properties;
+  };
+  std::map<std::string, Declared> declared_by_;
 };
 
 }  // namespace

@@ -126,6 +126,13 @@ void Simulation::State::check_materials(double kinetic) const {
                   names.empty() ? "" : ", or mend the material: ", names));
 }
 
+/// What comes first, where it is so.
+std::string Simulation::State::above_critical() const {
+  if (!(plan.dt > critical.dt)) return "";
+  return fmt::format("; the step of {:.3g} s is {:.2g} of the critical {:.3g} s ({}): no run stands that",
+                     plan.dt, plan.dt / critical.dt, critical.dt, limiter_of(scene, critical));
+}
+
 void Simulation::State::check_step() const {
   if (scene.time.dt && plan.dt > too_fast * allowed_dt()) {
     throw NumericalTrouble(fmt::format(
@@ -160,16 +167,17 @@ void Simulation::State::check_step() const {
                       "{:.3g} m behind the "
                       "boundary of a body of many elements that contact can see; raise normal_stiffness of "
                       "their interface, "
-                      "take a larger size of elements or a smaller time step, or part them at the start",
-                      time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration, visible));
+                      "take a larger size of elements or a smaller time step, or part them at the start{}",
+                      time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration, visible,
+                      above_critical()));
     }
     throw NumericalTrouble(
         fmt::format("too deep an overlap at t = {:.9g} s: {} and {} overlap by {:.3g} m, more than {:.3g} % "
                     "of the smaller width "
                     "{:.3g} m; raise normal_stiffness of their interface, take a smaller time step, or part "
-                    "them at the start",
+                    "them at the start{}",
                     time, place(totals.deepest_a), place(totals.deepest_b), totals.penetration,
-                    100 * scene.limits.penetration, width));
+                    100 * scene.limits.penetration, width, above_critical()));
   }
 }
 

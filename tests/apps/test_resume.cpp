@@ -327,6 +327,28 @@ TEST_CASE("doctor says why there is no state to go on from", "[apps][doctor]") {
   CHECK_THAT(call_talus(scratch.folder(), {"doctor", "c/a"}).out, Contains("it was stopped before t = 0"));
 }
 
+TEST_CASE("resume goes on with the scene of then, and tells where its file has changed", "[apps][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0"})).code == 130);
+  CHECK_THAT(call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "0"}).err,
+             !Contains("has changed"));
+  scratch.write("small.json", small_scene() + "\n// later\n");
+  CHECK_THAT(
+      call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "0"}).err,
+      Contains("small.json' has changed since the run was started: it goes on with the scene of then"));
+}
+
+TEST_CASE("doctor leads from a run without a record to its checkpoint", "[apps][doctor]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0"})).code == 130);
+  std::filesystem::remove(scratch / "broken/run.json");
+  const Call call = call_talus(scratch.folder(), {"doctor", "broken"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("`talus resume broken` goes on"));
+}
+
 TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());

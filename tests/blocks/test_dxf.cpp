@@ -45,6 +45,30 @@ Scene read_in(const Scratch& scratch, const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("what CAD does not show is passed over, and lines of hidden layers are told", "[blocks]") {
+  std::string hidden = line;
+  hidden.insert(hidden.find(" 10\n"), " 60\n1\n");
+  const DxfDrawing read = read_dxf_text(drawing(hidden + line), "d.dxf");
+  CHECK(read.lines.size() == 1);
+  CHECK(read.passed_over.at("LINE invisible") == 1);
+
+  const std::string tables =
+      "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n 70\n3\n  0\nLAYER\n  2\nfault\n 70\n0\n 62\n-7\n"
+      "  0\nLAYER\n  2\ncross\n 70\n1\n 62\n7\n  0\nLAYER\n  2\nshown\n 70\n0\n 62\n7\n  0\nENDTAB\n  "
+      "0\nENDSEC\n";
+  const std::string all = tables + drawing(line);
+  CHECK(read_dxf_text(all, "d.dxf").hidden_layers == std::set<std::string>{"cross", "fault"});
+  const Scratch scratch;
+  scratch.write("d.dxf", all);
+  const Scene scene = read_in(scratch, generator_scene(R"("dxf": "d.dxf")"));
+  CHECK(std::ranges::any_of(scene.warnings, [](const std::string& warning) {
+    return warning.find("layer 'fault' is switched off or frozen") != std::string::npos;
+  }));
+  CHECK(std::ranges::none_of(scene.warnings, [](const std::string& warning) {
+    return warning.find("'cross'") != std::string::npos;
+  }));
+}
+
 TEST_CASE("lines and polylines of a drawing are read with their layers", "[blocks]") {
   const DxfDrawing read = read_dxf_text(drawing(line + light + old_polyline), "d.dxf");
   REQUIRE(read.lines.size() == 3);
@@ -159,6 +183,10 @@ TEST_CASE("what is wrong with a drawing is told with its line", "[blocks]") {
   std::string arc = light;
   arc.insert(arc.find(" 10\n0.3"), " 42\n0.5\n");
   CHECK_THAT(refusal(drawing(arc)), Contains("arc"));
+  std::string last = light + " 42\n0.5\n";  // closed, so it leads to the first
+  CHECK_THAT(refusal(drawing(last)), Contains("arc"));
+  last.replace(last.find(" 70\n1"), 5, " 70\n0");
+  CHECK(refusal(drawing(last)) == "");
   CHECK_THAT(refusal(drawing(light + "230\n-1\n")), Contains("plane of its own"));
   CHECK_THAT(refusal(drawing("  0\nPOLYLINE\n  0\nLINE\n")), Contains("'LINE' stands where VERTEX"));
   for (const char* flags : {"0.5", "1e9", "-70000"}) {

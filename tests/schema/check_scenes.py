@@ -29,9 +29,9 @@ GOOD = {
     "damping": 0,
     "materials": {"rock": ROCK},
     "cover": {"model": "hexagonal", "size": 0.5},
-    "contact": {"model": "overlap_area", "vertex_edge": {"calibration": "per_area"}},
+    "contact": {"model": "overlap_area", "vertex_edge": {"calibration": "per_area"}, "cohesive_overlap": {}},
     "interfaces": [{"between": ["*", "*"], "normal_stiffness": 1e8, "tangential_stiffness": 1e8,
-                    "friction_angle": 20, "normal_damping": 0.3, "tangential_damping": 0.3}],
+                    "friction_angle": 20, "normal_damping": 0.3, "tangential_damping": 0.3, "softening_slip": 1e-3}],
     "bodies": [
         {"name": "slab", "polygon": [[-3, -1], [9, -1], [9, 0], [-3, 0]], "material": "rock", "fixed": True},
         {"name": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "material": "rock", "surfaces": {"top": [2]},
@@ -64,7 +64,7 @@ BROKEN = [
     # a wrong key
     ("/gravitty", [0, 0]), ("/materials/rock/young_moduls", 1), ("/materials/rock/dilation_angle", 1),
     ("/cover/plane", "strain"), ("/contact/overlap_area", {"calibration": "springs"}), ("/contact/friction", {}),
-    ("/interfaces/0/friction", 1), ("/interfaces/0/softening_slip", 1e-3), ("/bodies/1/colour", "red"), ("/bodies/2/cover/size", 1), ("/time/step", 1),
+    ("/interfaces/0/friction", 1), ("/contact", {"model": "overlap_area"}), ("/bodies/1/colour", "red"), ("/bodies/2/cover/size", 1), ("/time/step", 1),
     ("/blocks/0/joint_sets/0/strike", 1), ("/settle/force", 1), ("/bodies/1/drive/z", 1),
     ("/base_acceleration/0/x", [[0, 0], [1, 1]]), ("/stages/0/set", {"/title": "no"}),
     # a wrong type
@@ -75,7 +75,7 @@ BROKEN = [
     ("/$schema", 1), ("/talus", 2), ("/damping", "kinetik"), ("/contact/model", "overlap_aera"),
     # out of range
     ("/materials/rock/density", 0), ("/materials/rock/poisson_ratio", 0.5), ("/cover/size", 0),
-    ("/interfaces/0/friction_angle", 90), ("/interfaces/0/cohesion", -1), ("/interfaces/0/normal_damping", 11),
+    ("/interfaces/0/friction_angle", 90), ("/interfaces/0/cohesion", -1), ("/interfaces/0/softening_slip", -1), ("/interfaces/0/normal_damping", 11),
     ("/time/end", 0), ("/time/safety", 0.95), ("/limits/penetration", 0), ("/blocks/0/joint_sets/0/jitter", 0.6),
     ("/settle/until", 2), ("/tolerances/0/largest", -1), ("/bodies/0/polygon/0/0", 1e10), ("/sleep/after", -1),
     # a missing key
@@ -94,7 +94,7 @@ BROKEN = [
 
 # Pointer, value: what leaves it good.
 VARIED = [
-    ("/contact", {"model": "vertex_edge"}), ("/interfaces/0/cohesion", 1), ("/cover", REMOVED), ("/sleep", REMOVED),
+    ("/contact", {"model": "vertex_edge", "cohesive_overlap": {}}), ("/interfaces/0/cohesion", 1), ("/cover", REMOVED), ("/sleep", REMOVED),
     ("/cover", {"model": "hexagonal", "size": 0.5, "slivers": "keep"}), ("/contact/model", "frictionless"),
     ("/blocks/2/voronoi", {"spacing": 0.5, "jitter": 0.1, "seed": 3}), ("/damping", "kinetic"), ("/limits", REMOVED),
     ("/blocks/0/joint_sets/0", {"dip": 45, "spacing": 1, "persistence": 0.9, "gap": 0.1}), ("/time/dt", 1e-5),
