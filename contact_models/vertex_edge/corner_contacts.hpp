@@ -83,9 +83,10 @@ class CornerFinder {
       const Piece& own = geometry.piece[body];
       const Piece& other = geometry.piece[1 - body];
       const Vertices vertices(pieces, body);
+      const double margin = own.is_strip() ? 0 : margin_around(own, farthest);
       for (std::uint32_t v = 0; v < own.size(); ++v) {
         const std::optional<Vertex> vertex = own.is_strip()                       ? end_of_strip(own, v)
-                                             : may_stand(own, other, v, farthest) ? vertices.at(own, v)
+                                             : may_stand(own, other, v, margin) ? vertices.at(own, v)
                                                                                   : std::nullopt;
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
@@ -112,16 +113,30 @@ class CornerFinder {
     return Vertex{own.normal(0), {0, 0}, own.length(0), own.first_corner() + v, false};
   }
 
-  /// Of a corner where a cut ends: what lies beyond is worth a look only where something may be stood on.
-  static bool may_stand(const Piece& own, const Piece& other, std::uint32_t v, double farthest) {
-    if (own.is_cut(v) == own.is_cut(own.previous(v))) return !own.is_cut(v);
+  /// m, further outside the other piece no corner stands on it.
+  static double margin_around(const Piece& own, double farthest) {
     double around = 0;
     for (std::uint32_t i = 0; i < own.size(); ++i) around += own.length(i);
-    const double margin = std::max(farthest, flush * around);
+    return std::max(farthest, flush * around);
+  }
+
+  /// Most corners of a pair are far from the other body: what they look like is worth a look only where
+  /// something may be stood on. Past a cut of the other piece a corner may stand by its own edges.
+  static bool may_stand(const Piece& own, const Piece& other, std::uint32_t v, double margin) {
+    const bool at_cut = own.is_cut(v) != own.is_cut(own.previous(v));
+    if (!at_cut && own.is_cut(v)) return false;
+    if (!at_cut && !other.is_strip() && has_cuts(other)) return true;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (other.depth(k, own.at(v)) < -margin) return false;
     }
     return true;
+  }
+
+  static bool has_cuts(const Piece& piece) {
+    for (std::uint32_t k = 0; k < piece.size(); ++k) {
+      if (piece.is_cut(k)) return true;
+    }
+    return false;
   }
 
   [[gnu::always_inline]] static void stand(std::span<const PiecePairGeometry> pieces, const Piece& own,
