@@ -85,9 +85,9 @@ class CornerFinder {
       const Vertices vertices(pieces, body);
       const double margin = own.is_strip() ? 0 : margin_around(own, farthest);
       for (std::uint32_t v = 0; v < own.size(); ++v) {
-        const std::optional<Vertex> vertex = own.is_strip()                       ? end_of_strip(own, v)
+        const std::optional<Vertex> vertex = own.is_strip()                     ? end_of_strip(own, v)
                                              : may_stand(own, other, v, margin) ? vertices.at(own, v)
-                                                                                  : std::nullopt;
+                                                                                : std::nullopt;
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
