@@ -118,9 +118,9 @@ class CoveredSides {
     contact.tributary += corner.ends * std::max(0.0, covered) / 2;
   }
 
-  /// m, how far the contact goes on from a corner towards an end of the side that has lifted off: to where the
-  /// line through the corner and the furthest vertex that still stands there comes up; along its own side, if
-  /// there is none.
+  /// m, how far the contact goes on from a corner towards an end of the side that has lifted off: to where
+  /// the line through the corner and the furthest vertex that still stands there comes up; along its own
+  /// side, if there is none.
   double reach_of(const CornerOnSide& corner, double whole) const {
     const CornerContact& contact = found_[corner.contact];
     const double least = std::min(whole, own(contact).length(0));
