@@ -7,6 +7,7 @@
 #include "output/records.hpp"
 #include "output/series.hpp"
 #include "scene_options.hpp"
+#include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -57,9 +58,9 @@ nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
   }
   if (!std::filesystem::exists(folder / "run.json") && std::filesystem::exists(checkpoint_file(folder)))
     throw InputError(fmt::format(
-        "'{0}' holds a run that was broken off before it could be recorded: `talus resume {0}` goes "
+        "'{}' holds a run that was broken off before it could be recorded: `talus resume {}` goes "
         "on with it from its checkpoint",
-        folder.string()));
+        folder.string(), shell_word(folder.string())));
   auto record = read_run_record(folder);
   const bool settled = !record.contains("settling_t [s]");
   fmt::print("{}: {} at t = {:.9g} s{} after {} steps\n", folder.string(),

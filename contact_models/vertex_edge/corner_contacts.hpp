@@ -61,6 +61,12 @@ inline constexpr double flush = 0.01;
 /// Share of a side of a body of many elements up to which its ends are near by another side.
 inline constexpr double near_by = 0.1;
 
+/// m, up to how deep behind a side the end of another counts as on it, though a flank is nearer. Lattices cut
+/// off sides shorter than any overlap, so that of the side below counts as well.
+inline double shallow(double own, double met) {
+  return near_by * std::max(own, met / 2);
+}
+
 /// How far above a side a vertex still stands on it, m: held by a bond, and with what a step may have torn
 /// that off, so that it is seen to break.
 struct BondReach {
@@ -224,7 +230,7 @@ class CornerFinder {
   static bool stays_before(const Piece& own, const Piece& other, const CornerContact& contact,
                            std::uint32_t bisector) {
     if (!(dot(own.normal(0), other.normal(0)) < -upright) ||
-        contact.depth > near_by * std::max(own.length(0), other.length(0)))
+        contact.depth > shallow(own.length(0), other.length(0)))
       return false;
     const double lever = other.lever(0, own.at(contact.vertex)), slack = contact.slack / other.length(0);
     if (!(lever >= -slack && lever <= 1 + slack)) return false;

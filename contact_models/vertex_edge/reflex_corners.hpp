@@ -101,7 +101,7 @@ inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerCon
     const CornerContact& bears = contact.idle ? other : contact;
     const Piece &own = pieces[bears.entry].piece[bears.vertex_body],
                 &met = pieces[bears.entry].piece[1 - bears.vertex_body];
-    if (bears.depth <= near_by * std::max(own.length(0), met.length(bears.side))) return other.idle;
+    if (bears.depth <= shallow(own.length(0), met.length(bears.side))) return other.idle;
   }
   const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
   const auto side_of = [&](const CornerContact& one) -> const Piece& {

@@ -129,7 +129,8 @@ class Parser {
     if (code_ == 0) of_layer_ = value_ == "LAYER";
     if (!of_layer_) return;
     if (code_ == 2) layer_ = value_;
-    if ((code_ == 62 && number() < 0) || (code_ == 70 && (flags() & frozen) != 0))
+    const auto value = static_cast<int>(plain_number(value_).value_or(0));
+    if ((code_ == 62 && value < 0) || (code_ == 70 && (value & frozen) != 0))
       drawing_.hidden_layers.insert(text_of(layer_));
   }
 
@@ -185,7 +186,7 @@ class Parser {
   }
 
   void refuse_arc() {
-    if (arc_line_ == 0) return;
+    if (arc_line_ == 0 || paper_ || invisible_) return;
     line_ = arc_line_;
     fail("the polyline has an arc (code 42): draw it as straight lines");
   }

@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace talus {
@@ -120,6 +122,12 @@ constexpr std::pair<int, std::string_view> foreign_units[] = {{1, "inches"},
                                                               {23, "US survey yards"},
                                                               {24, "US survey miles"}};
 
+/// CAD does not tell large letters from small ones.
+bool same_layer(std::string_view p, std::string_view q) {
+  return std::ranges::equal(
+      p, q, [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
 void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& section, Joints& joints) {
   const std::string pointer = section.pointer_to("dxf");
   joints.drawing = file;
@@ -139,7 +147,8 @@ void take_drawing(const DxfDrawing& drawing, const std::string& file, Section& s
     joints.cuts.push_back({line.points, joints.number_of(line.layer == "0" ? "" : line.layer), true});
   }
   for (const std::string& layer : drawing.hidden_layers) {
-    if (std::ranges::find(drawing.lines, layer, &DxfLine::layer) != drawing.lines.end())
+    if (std::ranges::any_of(drawing.lines,
+                            [&](const DxfLine& line) { return same_layer(line.layer, layer); }))
       joints.warnings.push_back(
           fmt::format("{}: layer '{}' is switched off or frozen there, and its lines are joints all the same",
                       file, layer));

@@ -342,11 +342,11 @@ TEST_CASE("resume goes on with the scene of then, and tells where its file has c
 TEST_CASE("doctor leads from a run without a record to its checkpoint", "[apps][doctor]") {
   const Scratch scratch;
   scratch.write("small.json", small_scene());
-  REQUIRE(call_talus(scratch.folder(), run_words("broken", {"--wall-time", "0"})).code == 130);
-  std::filesystem::remove(scratch / "broken/run.json");
-  const Call call = call_talus(scratch.folder(), {"doctor", "broken"});
+  REQUIRE(call_talus(scratch.folder(), run_words("br oken", {"--wall-time", "0"})).code == 130);
+  std::filesystem::remove(scratch / "br oken/run.json");
+  const Call call = call_talus(scratch.folder(), {"doctor", "br oken"});
   CHECK(call.code == 2);
-  CHECK_THAT(call.err, Contains("`talus resume broken` goes on"));
+  CHECK_THAT(call.err, Contains("`talus resume 'br oken'` goes on"));
 }
 
 TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume]") {
