@@ -234,8 +234,7 @@ class CornerFinder {
       return false;
     const double lever = other.lever(0, own.at(contact.vertex)), slack = contact.slack / other.length(0);
     if (!(lever >= -slack && lever <= 1 + slack)) return false;
-    const Point along = other.tangent(0), across = other.tangent(bisector);
-    const Point beyond = along - 2 * dot(across, along) * across;
+    const Point beyond = tangent_across(other, bisector);
     return is_idle(own, contact.vertex, {beyond.y, -beyond.x});
   }
 

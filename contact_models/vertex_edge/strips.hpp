@@ -17,10 +17,15 @@ inline std::uint32_t bisector_at(const Piece& strip, std::uint32_t v) {
   return edge;
 }
 
+/// Tangent of the side that a bisector divides a strip's own from.
+inline Point tangent_across(const Piece& strip, std::uint32_t bisector) {
+  const Point own = strip.tangent(0), along = strip.tangent(bisector);
+  return own - 2 * dot(along, own) * along;
+}
+
 /// Tangent of the side that meets a strip's own in its corner `v`.
 inline Point tangent_beyond(const Piece& strip, std::uint32_t v) {
-  const Point own = strip.tangent(0), bisector = strip.tangent(bisector_at(strip, v));
-  return own - 2 * dot(bisector, own) * bisector;
+  return tangent_across(strip, bisector_at(strip, v));
 }
 
 }  // namespace talus::vertex_edge

@@ -125,13 +125,12 @@ class Parser {
 
   /// Of the table of layers, which stands before the entities: those that CAD does not show.
   void note_layer() {
-    constexpr int frozen = 1;
     if (code_ == 0) of_layer_ = value_ == "LAYER";
     if (!of_layer_) return;
     if (code_ == 2) layer_ = value_;
-    const auto value = static_cast<int>(plain_number(value_).value_or(0));
-    if ((code_ == 62 && value < 0) || (code_ == 70 && (value & frozen) != 0))
-      drawing_.hidden_layers.insert(text_of(layer_));
+    const double value = plain_number(value_).value_or(0);
+    const bool off = code_ == 62 && value < 0, frozen = code_ == 70 && std::fmod(value, 2) == 1;
+    if (off || frozen) drawing_.hidden_layers.insert(text_of(layer_));
   }
 
   /// Ends on ENDSEC.

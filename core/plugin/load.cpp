@@ -35,7 +35,18 @@ boost::dll::shared_library open_for_good(const fs::path& file) {
   using boost::dll::load_mode::type;
   const type mode =
       static_cast<type>(boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local | RTLD_NODELETE);
-  return boost::dll::shared_library(file, mode);
+  try {
+    return boost::dll::shared_library(file, mode);
+  } catch (const boost::dll::fs::system_error&) {
+    throw;
+  } catch (...) {
+    // The loader of the system was left amid its work and keeps its lock: the first thread that needs it
+    // would wait for ever, so nothing may go on from here.
+    throw PluginError(fmt::format(
+        "{}: found static objects that throw while it is loaded, wanted a talus plugin; take it out of the "
+        "folders of plugins, or mend and rebuild it",
+        file.string()));
+  }
 }
 
 /// The same library built for the best instruction set up to `level`: in a folder of that name beside it.
@@ -83,14 +94,13 @@ std::optional<std::string> reason_not_loaded(Registry& registry, const fs::path&
     const boost::dll::shared_library opened = open_for_good(variant);
     if (!opened.has(symbol)) return no_descriptor();
     library = &opened.get<const Library>(symbol);
+  } catch (const PluginError&) {
+    throw;
   } catch (const std::exception& trouble) {
     return fmt::format(
         "found a file that the system cannot load: {}; wanted a talus plugin with nothing "
         "undefined; rebuild it on this machine, linked with what it uses",
         loader_words(trouble.what()));
-  } catch (...) {
-    return "found constructors of static objects that throw what is no std::exception, wanted a plugin that "
-           "loads; mend it and rebuild the library";
   }
   if (auto reason = reason_to_refuse(*library)) return reason;
   if (auto reason = reason_of_clash(registry, *library)) return reason;

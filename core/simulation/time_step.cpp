@@ -181,6 +181,12 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
   return settings.prescribed.empty() && settings.absorbing.empty();
 }
 
+/// Where most of the room is left over; what nobody has touched takes none.
+template <class T>
+void give_back(std::vector<T>& values) {
+  if (values.size() < values.capacity() / 2) values.shrink_to_fit();
+}
+
 }  // namespace
 
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
@@ -248,16 +254,6 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
   }
   drop_beyond(rounded * longest);
 }
-
-namespace {
-
-/// Where most of the room is left over; what nobody has touched takes none.
-template <class T>
-void give_back(std::vector<T>& values) {
-  if (values.size() < values.capacity() / 2) values.shrink_to_fit();
-}
-
-}  // namespace
 
 /// Who never has a step so short leaves, and so do ballots of nobody else.
 void StepVote::drop_beyond(double longest) {

@@ -53,7 +53,8 @@ TEST_CASE("what CAD does not show is passed over, and lines of hidden layers are
   CHECK(read.passed_over.at("LINE invisible") == 1);
 
   const std::string tables =  // CAD does not tell large letters from small ones
-      "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n 70\n3\n  0\nLAYER\n  2\nFault\n 70\n0\n 62\n-7\n"
+      "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n 70\n3\n  0\nLAYER\n  5\n1E99\n  2\nFault\n "
+      "70\n0\n 62\n-7\n"
       "  0\nLAYER\n  2\ncross\n 70\n1\n 62\n7\n  0\nLAYER\n  2\nshown\n 70\n0\n 62\n7\n  0\nENDTAB\n  "
       "0\nENDSEC\n";
   const std::string all = tables + drawing(line);

@@ -7,6 +7,7 @@
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
+#include <filesystem>
 #include <sstream>
 
 using namespace talus;
@@ -224,7 +225,17 @@ TEST_CASE("a library that is refused, or does not survive being loaded, has exit
              Contains("found the unit system 'SI: mm t s"));
   CHECK_THAT(refused(spoilt("crashes_when_loaded")),
              Contains("found a crash: signal 4") && Contains("while it was loaded"));
+  CHECK_THAT(refused(spoilt("throws_when_loaded")), Contains("found static objects that throw"));
   CHECK_THAT(refused("./nowhere.so"), Contains("found no such file"));
+}
+
+TEST_CASE("A library that throws while it is loaded ends the command that loads it, by name", "[plugin]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "plugins");
+  std::filesystem::copy_file(spoilt("throws_when_loaded"), scratch / "plugins/libthrows.so");
+  const Call call = call_talus(scratch.folder(), {"plugins", "--plugin-path", "plugins"});
+  CHECK(call.code == 3);
+  CHECK_THAT(call.err, Contains("plugins/libthrows.so: found static objects that throw while it is loaded"));
 }
 
 TEST_CASE("check-plugin tells what is wrong with its words", "[conformance]") {

@@ -14,6 +14,9 @@ namespace {
 constexpr const char* springs = R"("normal_stiffness": {}, "tangential_stiffness": {}, "friction_angle": 0,
                                    "normal_damping": {}, "tangential_damping": 0)";
 
+constexpr const char* hard_rock =
+    R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+
 std::string lattice(double size, const std::string& more = "", double offset_y = 0) {
   return fmt::format(R"("cover": {{"model": "hexagonal", "size": {}, "offset_y": {}}}{})", size, offset_y,
                      more);
@@ -71,8 +74,7 @@ TEST_CASE("A corner a little past a node of the side below stands where its foot
   WorkingScene text;
   text.law = "vertex_edge";
   text.gravity = "[0, -10]";
-  text.material =
-      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+  text.material = hard_rock;
   text.interface = fmt::format(springs, "1e7", "1e7", "0");
   const double row_at_the_top = 0.25 - 0.25 * std::sqrt(0.75);  // with nodes at 0.375 m on both sides
   text.bodies =
@@ -80,12 +82,8 @@ TEST_CASE("A corner a little past a node of the side below stands where its foot
       "," + box("upper", past - 0.375, 0, past + 0.375, 0.5, upper + R"(, "fix": ["x", "rotation"])");
   text.rest = R"("settle": {"duration": 2, "damping": "adaptive", "until": 1e-7},)";
   text.time = R"({"end": 0.02})";
-  Simulation simulation(text.read(), {});
-  simulation.settle();
-  const double sink = 0.25 - simulation.body_motion(1).position.y;
-  CHECK(sink == Approx(2000 * 10 * 0.5 / 1e7).epsilon(0.02));
-  while (simulation.advance()) {
-  }
+  const Simulation simulation = settle_and_run(text);
+  CHECK(0.25 - simulation.body_motion(1).position.y == Approx(2000 * 10 * 0.5 / 1e7).epsilon(0.02));
   CHECK(simulation.summary().largest_residual_share < 1e-3);
 }
 
@@ -94,17 +92,13 @@ TEST_CASE("A side shorter than the overlap, as a lattice cuts it off, spoils no 
   WorkingScene text;
   text.law = "vertex_edge";
   text.gravity = "[0, -10]";
-  text.material =
-      R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+  text.material = hard_rock;
   text.interface = fmt::format(springs, "1e7", "1e7", "0");
   text.bodies = box("base", -0.37, -1, 0.21, 0, lattice(0.25, R"(, "fix": ["x", "y", "rotation"])")) + "," +
                 box("block", -0.5, 0, 0.5, 1, lattice(0.25, R"(, "fix": ["x"])"));
   text.rest = R"("settle": {"duration": 3, "damping": 60},)";
   text.time = R"({"end": 0.09})";
-  Simulation simulation(text.read(), {});
-  simulation.settle();
-  while (simulation.advance()) {
-  }
+  const Simulation simulation = settle_and_run(text);
   CHECK(simulation.summary().largest_residual_share < 1e-3);
   CHECK(std::abs(simulation.body_motion(1).velocity.y) < 1e-6);
 }
@@ -136,8 +130,7 @@ TEST_CASE("Bodies of many elements part at the strength of their joint, wherever
     WorkingScene text;
     text.law = "vertex_edge";
     text.gravity = pulled ? "[0, 10]" : "[10, 0]";
-    text.material =
-        R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25)";
+    text.material = hard_rock;
     text.interface =
         fmt::format(R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": {},
         "normal_damping": 0.3, "tangential_damping": 0.3, "tensile_strength": {}, "cohesion": {})",
@@ -147,10 +140,7 @@ TEST_CASE("Bodies of many elements part at the strength of their joint, wherever
                       lattice(0.25, pulled ? R"(, "fix": ["x", "rotation"])" : R"(, "fix": ["rotation"])"));
     text.rest = R"("settle": {"duration": 1, "damping": 300, "until": 1e-5},)";
     text.time = R"({"end": 0.1})";
-    Simulation simulation(text.read(), {});
-    REQUIRE(simulation.settle());
-    while (simulation.advance()) {
-    }
+    const Simulation simulation = settle_and_run(text);
     const Vec2 velocity = simulation.body_motion(1).velocity;
     CHECK((std::abs(pulled ? velocity.y : velocity.x) > 0.5) == (share < 1));
   }
@@ -193,10 +183,7 @@ TEST_CASE("A wall of flush bodies of many elements settles from where its bodies
   }
   text.rest = R"("settle": {"duration": 0.004, "damping": 100},)";
   text.time = R"({"end": 0.002})";
-  Simulation simulation(text.read(), {});
-  REQUIRE(simulation.settle());
-  while (simulation.advance()) {
-  }
+  const Simulation simulation = settle_and_run(text);
   CHECK(simulation.summary().largest_residual_share < 1e-3);
 }
 
@@ -217,10 +204,7 @@ TEST_CASE("A block of many elements rests on a slope of many elements", "[vertex
             [-0.01651341654947025, 0.951749603138275]], "cover": {"model": "hexagonal", "size": 0.2, "angle": 20}})";
   text.rest = R"("settle": {"duration": 0.2, "damping": 100},)";
   text.time = R"({"end": 0.1})";
-  Simulation simulation(text.read(), {});
-  REQUIRE(simulation.settle());
-  while (simulation.advance()) {
-  }
+  const Simulation simulation = settle_and_run(text);
   CHECK(std::abs(simulation.body_motion(1).velocity.x) < 1e-5);
   CHECK(simulation.summary().largest_residual_share < 1e-3);
 }

@@ -54,10 +54,6 @@ TEST_CASE("A library with another magic number is refused", "[plugin]") {
   require_refused("wrong_magic", "found the magic number 0x12345678", "wanted 0x554c4154", "no talus plugin");
 }
 
-TEST_CASE("A library that throws while it is loaded is refused, whatever it throws", "[plugin]") {
-  require_refused("throwing_static", "static objects that throw", "wanted a plugin that loads", "mend it");
-}
-
 TEST_CASE("A claim that nobody knows is refused", "[plugin]") {
   require_refused("unknown_trait", "found the traits 0x101", "talus::trait", "rebuild the library");
 }

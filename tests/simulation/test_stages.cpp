@@ -6,147 +6,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
+#include <string>
 
 using namespace talus;
-
-namespace {
-
-WorkingScene resting() {
-  WorkingScene text;
-  text.cover = "block";
-  text.gravity = "[0, -10]";
-  text.bodies = box("base", -1, -1, 3, 0, R"("fixed": true)") + ", " + box("a", 0, 0, 2, 1);
-  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
-                      "normal_damping": 0.3, "tangential_damping": 0.3)";
-  text.time = R"({"end": 0.1})";
-  return text;
-}
-
-bool same_bits(double p, double q) {
-  return std::memcmp(&p, &q, sizeof p) == 0;
-}
-
-}  // namespace
-
-TEST_CASE("settling ends with velocities and clock at zero, and the counts start there",
-          "[simulation][settle]") {
-  WorkingScene text = resting();
-  text.rest = R"("settle": {"duration": 0.3, "damping": 300},)";
-  Simulation simulation(text.read(), {});
-  simulation.settle();
-  CHECK(simulation.time() == 0);
-  CHECK(simulation.summary().settle_steps > 100);
-  CHECK(simulation.summary().steps == 0);
-  REQUIRE(simulation.advance());
-  CHECK(simulation.time() == 0);
-  const Motion at_start = simulation.body_motion(1);
-  CHECK(at_start.displacement.x == 0);
-  CHECK(at_start.displacement.y == 0);
-  CHECK(at_start.rotation == 0);
-  CHECK(std::abs(at_start.velocity.y) < 1e-12);
-  CHECK(at_start.position.y ==
-        Approx(0.5 - 2300 * 10 / 1e9 - 0.5 * 0.5 * 2300 * 10 * 0.9375 / 1e10).epsilon(1e-9));
-  CHECK(simulation.ledger().external_work == 0);
-  CHECK(simulation.ledger().global_damping_loss == 0);
-  CHECK(simulation.ledger().contact == Approx(1e9 * 2.3e-5 * 2.3e-5).epsilon(1e-3));
-
-  while (simulation.advance()) {
-  }
-  CHECK(std::abs(simulation.body_motion(1).displacement.y) < 1e-9);
-  CHECK(std::abs(simulation.body_motion(1).velocity.y) < 1e-6);
-}
-
-TEST_CASE("what a body turned while settling does not count", "[simulation][settle]") {
-  WorkingScene text = resting();
-  text.cover = "rigid";
-  text.bodies = box("base", -9, -1, 9, 0, R"("fixed": true)") + R"(, {"name": "a", "material": "rock",
-                "polygon": [[0, 0.1], [1, 2.1], [-1, 3], [-1.5, 1]]})";
-  text.rest = R"("settle": {"duration": 2, "damping": 2},)";
-  Simulation simulation(text.read(), {});
-  simulation.settle();
-  REQUIRE(simulation.advance());
-  CHECK(simulation.body_motion(1).rotation == 0);
-  CHECK(simulation.body_motion(1).position.y < 1.4);
-}
-
-TEST_CASE("without a settle stage settling does nothing", "[simulation][settle]") {
-  Simulation simulation(resting().read(), {});
-  const std::string before = simulation.state_hash();
-  simulation.settle();
-  CHECK(simulation.state_hash() == before);
-  CHECK(simulation.summary().settle_steps == 0);
-}
-
-TEST_CASE("initial and driven velocities begin after settling", "[simulation][settle]") {
-  WorkingScene text = resting();
-  text.bodies = box("base", -1, -1, 9, 0, R"("fixed": true)") + ", " +
-                box("a", 0, 0, 2, 1, R"("velocity": [2, 0])") + ", " +
-                box("b", 4, 0, 6, 1, R"("drive": {"x": 0.5})");
-  text.rest = R"("settle": {"duration": 0.1, "damping": 300},)";
-  Simulation simulation(text.read(), {});
-  simulation.settle();
-  CHECK(std::abs(simulation.body_motion(2).position.x - 5) < 1e-9);
-  simulation.advance();
-  CHECK(simulation.body_motion(1).velocity.x == Approx(2).epsilon(1e-3));
-  CHECK(simulation.body_motion(2).velocity.x == Approx(0.5));
-  CHECK(simulation.body_motion(2).displacement.x == 0);
-}
-
-TEST_CASE("outputs are hit to the bit, whatever the step", "[simulation][outputs]") {
-  for (const char* time :
-       {R"({"end": 0.1})", R"({"end": 0.1, "dt": 1.7e-4})", R"({"end": 0.1, "safety": 0.031})"}) {
-    INFO(time);
-    WorkingScene text = resting();
-    text.time = time;
-    text.output = R"({"history": 0.007, "frames": 0.021})";
-    Simulation simulation(text.read(), {});
-    int outputs = 0, frames = 0;
-    for (; simulation.advance(); ++outputs) {
-      const double expected = outputs * 0.007 < 0.1 ? outputs * 0.007 : 0.1;
-      CHECK(same_bits(simulation.time(), expected));
-      CHECK(simulation.history_due());
-      frames += simulation.frame_due() ? 1 : 0;
-    }
-    CHECK(outputs == 16);  // 0, 0.007 … 0.098, 0.1
-    CHECK(frames == 6);    // 0, 0.021 … 0.084, 0.1
-    CHECK(same_bits(simulation.time(), 0.1));
-    CHECK_FALSE(simulation.advance());
-  }
-}
-
-TEST_CASE("how often results are written changes the motion by no more than the steps do",
-          "[simulation][outputs]") {
-  WorkingScene often = resting(), seldom = resting();
-  often.output = R"({"history": 0.001})";
-  seldom.output = R"({"history": 0.1})";
-  Simulation one(often.read(), {}), other(seldom.read(), {});
-  while (one.advance()) {
-  }
-  while (other.advance()) {
-  }
-  CHECK(one.body_motion(1).position.y == Approx(other.body_motion(1).position.y).epsilon(1e-7));
-}
-
-TEST_CASE("an interrupted run stops between outputs and goes on", "[simulation][outputs]") {
-  WorkingScene text = resting();
-  text.output = R"({"history": 0.05})";
-  Simulation whole(text.read(), {}), broken(text.read(), {});
-  bool interrupted = true;
-  const Pause pause = [&] { return interrupted; };
-  while (whole.advance()) {
-  }
-  broken.advance(pause);
-  CHECK(broken.time() == 0);
-  REQUIRE(broken.advance(pause));
-  CHECK(broken.time() > 0);
-  CHECK(broken.time() < 0.05);
-  interrupted = false;
-  while (broken.advance(pause)) {
-  }
-  CHECK(broken.time() == 0.1);
-  CHECK(broken.state_hash() == whole.state_hash());
-}
 
 TEST_CASE("a stage between two outputs begins on time and every output is still met",
           "[simulation][stages]") {
@@ -416,7 +278,7 @@ TEST_CASE("ground that moves ever faster works on a free body by the mean of bot
 
 TEST_CASE("a stage a rounding before an output begins with it", "[simulation][stages]") {
   const auto run = [](const char* from) {
-    WorkingScene text = resting();
+    WorkingScene text = resting_block();
     text.time = R"({"end": 0.4})";
     text.output = R"({"history": 0.1})";
     text.rest =
@@ -431,7 +293,7 @@ TEST_CASE("a stage a rounding before an output begins with it", "[simulation][st
 
 TEST_CASE("of stages that begin at once the last holds, and energy is booked from before the first",
           "[simulation][stages]") {
-  WorkingScene text = resting();
+  WorkingScene text = resting_block();
   text.time = R"({"end": 0.1})";
   text.rest = R"("settle": {"duration": 0.3, "damping": 300},
                  "stages": [{"name": "soft", "from": 0.05, "set": {"/interfaces/0/normal_stiffness": 4e9}},
@@ -449,7 +311,7 @@ TEST_CASE("of stages that begin at once the last holds, and energy is booked fro
 TEST_CASE("a body that was turned inside out stops the run, however it is covered", "[simulation][trouble]") {
   for (const char* cover : {R"({"model": "block"})", R"({"model": "hexagonal", "size": 0.5})"}) {
     INFO(cover);
-    WorkingScene text = resting();
+    WorkingScene text = resting_block();
     text.bodies = box("base", -1, -1, 3, 0, R"("fixed": true)") + ", " +
                   box("a", 0, 0, 2, 1, R"("cover": )" + std::string(cover));
     text.material =
@@ -480,28 +342,5 @@ TEST_CASE("a stage that changes nothing does no work on bodies that meet as it b
     }
     REQUIRE(simulation.ledger().contact > 10);
     CHECK(simulation.ledger().external_work == 0);
-  }
-}
-
-TEST_CASE("a step longer than the time between outputs is told, and what shortened it", "[simulation]") {
-  WorkingScene text;
-  text.bodies = box("a", 0, 0, 1, 1, R"("velocity": [1, 0])");
-  text.output = R"({"history": 0.001})";
-  struct Case {
-    const char *dt, *stages;
-    bool told;
-  };
-  // A step that ends with the output before a stage is no shorter for the others.
-  for (const auto& [dt, stages, told] :
-       {Case{"0.01", "", true},
-        {"0.0005", "", false},
-        {"0.0005", R"("stages": [{"name": "later", "from": 1e-5, "set": {"/damping": 1}}],)", false}}) {
-    CAPTURE(dt, stages);
-    text.rest = stages;
-    text.time = std::string(R"({"end": 0.0022, "dt": )") + dt + "}";  // the last interval is a short one
-    const RunSummary summary = run_to_end(text).summary();
-    CHECK((summary.dt_limiter == "time.dt of the scene") == !told);
-    CHECK((!summary.warnings.empty() &&
-           summary.warnings[0].find("longer than the time between outputs") != std::string::npos) == told);
   }
 }

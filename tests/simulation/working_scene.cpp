@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace talus {
 
@@ -35,8 +36,27 @@ Scene WorkingScene::read(Registry& registry) const {
   return read_scene_text(text, "working.json", registry);
 }
 
+WorkingScene resting_block() {
+  WorkingScene text;
+  text.cover = "block";
+  text.gravity = "[0, -10]";
+  text.bodies = box("base", -1, -1, 3, 0, R"("fixed": true)") + ", " + box("a", 0, 0, 2, 1);
+  text.interface = R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.time = R"({"end": 0.1})";
+  return text;
+}
+
 Simulation run_to_end(const WorkingScene& text) {
   Simulation simulation(text.read(), {});
+  while (simulation.advance()) {
+  }
+  return simulation;
+}
+
+Simulation settle_and_run(const WorkingScene& text) {
+  Simulation simulation(text.read(), {});
+  if (!simulation.settle()) throw std::runtime_error("the scene did not settle to its end");
   while (simulation.advance()) {
   }
   return simulation;

@@ -34,7 +34,12 @@ struct WorkingScene {
   Scene read(Registry& registry = shipped_registry()) const;
 };
 
+/// A block on a fixed base, under its weight.
+WorkingScene resting_block();
+
 Simulation run_to_end(const WorkingScene& text);
+/// The same of a scene that settles first.
+Simulation settle_and_run(const WorkingScene& text);
 
 /// What the energy balance misses, as a share of the energy that went through it.
 double residual_share(const EnergyLedger& ledger);
