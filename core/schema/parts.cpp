@@ -112,6 +112,13 @@ OrderedJson any_of(const std::vector<std::string>& keys) {
   return {{"anyOf", one}};
 }
 
+/// That list with something in it.
+OrderedJson some_of(const char* key) {
+  OrderedJson condition = shape::required({key});
+  condition["properties"][key]["minItems"] = 1;
+  return condition;
+}
+
 OrderedJson if_then(const OrderedJson& condition, const OrderedJson& consequence) {
   return {{"if", condition}, {"then", consequence}};
 }
@@ -161,7 +168,7 @@ Part world() {
       object_key("limits", "{}", "When a run is stopped.", "limits"),
       list_key("tolerances", "How far compared runs may part.", "tolerance"),
   };
-  part.conditions = any_of({"bodies", "blocks"});
+  part.conditions = {{"anyOf", OrderedJson::array({some_of("bodies"), some_of("blocks")})}};
   return part;
 }
 

@@ -61,7 +61,9 @@ OrderedJson path() {
 }
 
 OrderedJson name() {
-  return {{"type", "string"}, {"pattern", "^(?!\\*$)(?! *$)[^/,.\"\\x00-\\x1f]+$"}};
+  return {{"type", "string"},
+          {"pattern", "^(?!\\*$)(?! )[^/,.\"\\x00-\\x1f]*[^ /,.\"\\x00-\\x1f]$"},
+          {"maxLength", 200}};
 }
 
 OrderedJson point() {

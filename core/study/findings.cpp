@@ -71,6 +71,8 @@ std::string words_of_nothing(const StudyPlan& plan, const std::vector<StudyRun>&
 
 /// Of errors: what rounding makes in a run says nothing of its steps.
 constexpr double round_off = 1e-11;
+/// Share by which one and the same run may cost more or less from time to time.
+constexpr double clock_noise = 0.05;
 
 /// A step that is stated is rounded to whole steps per output, and one that is voted may be bound by more
 /// than its safety: its order is in those that ran.
@@ -249,14 +251,19 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
 
 std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,
                                            double error) {
-  std::optional<std::size_t> best;
+  const auto error_of = [&](std::size_t i) {
+    return findings.runs[i].error.value_or(0) + findings.error_of_reference.value_or(0);
+  };
+  std::vector<std::size_t> within;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const bool is_reference = findings.reference == i && findings.error_of_reference;
-    if (!findings.runs[i].error && !is_reference) continue;
-    if (findings.runs[i].error.value_or(0) + findings.error_of_reference.value_or(0) > error) continue;
-    if (!best || runs[i].cpu < runs[*best].cpu) best = i;
+    if ((findings.runs[i].error || is_reference) && error_of(i) <= error) within.push_back(i);
   }
-  return best;
+  if (within.empty()) return std::nullopt;
+  const auto cpu_of = [&](std::size_t i) { return runs[i].cpu; };
+  const double least = cpu_of(*std::ranges::min_element(within, {}, cpu_of));
+  std::erase_if(within, [&](std::size_t i) { return cpu_of(i) > (1 + clock_noise) * least; });
+  return *std::ranges::min_element(within, {}, error_of);
 }
 
 }  // namespace talus

@@ -58,7 +58,8 @@ void check_reference(const Series& reference, const std::string& column);
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
                        const std::optional<Series>& reference, double rounding = 0);
 
-/// The cheapest run with at most this error, that of the reference included, if there is one.
+/// The cheapest run with at most this error, that of the reference included, if there is one; of those that
+/// cost the same but for the noise of clocks the one with the least error, and the first of equals.
 std::optional<std::size_t> cheapest_within(const StudyFindings& findings, const std::vector<StudyRun>& runs,
                                            double error);
 

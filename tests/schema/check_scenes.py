@@ -90,7 +90,13 @@ BROKEN = [
     ("/bodies/0/fix", ["x"]), ("/bodies/1/mesh", "a.msh"), ("/blocks/2/voronoi/spacing", 1),
     ("/blocks/2/voronoi/jitter", 0.1), ("/blocks/0/joint_sets/0/persistence", 0.5),
     ("/blocks/0/joint_sets/0/gap", 1),
+    # names
+    ("/bodies/1/name", " a"), ("/bodies/1/name", "a "), ("/bodies/1/name", "*"), ("/monitors/0/name", "a.b"),
+    ("/blocks/0/name", "w" * 201), ("/materials", {"rock": ROCK, "rock ": ROCK}),
 ]
+
+# A scene needs something in one of them.
+NOTHING = [{"bodies": [], "blocks": []}, {"bodies": []}, {"blocks": []}, {}]
 
 # Pointer, value: what leaves it good.
 VARIED = [
@@ -204,6 +210,12 @@ def main():
         if read(scene)[0]:
             failed.append(f"{pointer}: {value}: the program takes it")
 
+    for lists in NOTHING:
+        scene = {"talus": 1, "materials": {"rock": ROCK}, "time": {"end": 1}} | lists
+        expect(False, scene, str(lists))
+        if read(scene)[0]:
+            failed.append(f"{lists}: the program takes it")
+
     compared = set()
     for pointer, part, value in object_schemas(schema, GOOD):
         kind = re.sub(r"/[0-9]+", "/*", pointer)
@@ -219,7 +231,7 @@ def main():
         if place not in compared:
             failed.append(f"{place}: its keys were not compared")
 
-    print(f"{len(SCENES)} scenes, {len(VARIED) + 1} good and {len(BROKEN)} bad variants, "
+    print(f"{len(SCENES)} scenes, {len(VARIED) + 1} good and {len(BROKEN) + len(NOTHING)} bad variants, "
           f"keys of {len(compared)} objects: {len(failed)} wrong")
     print("\n".join(failed))
     return 1 if failed else 0

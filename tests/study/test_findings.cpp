@@ -48,6 +48,17 @@ TEST_CASE("A study's errors are those against its finest run, and give its front
   CHECK_THAT(study_svg(sample_steps(), runs, findings), Contains("dt=2e-3"));
 }
 
+TEST_CASE("Which of equal runs is proposed is not left to the clock", "[study]") {
+  // As where another bound holds the step: the first three are one run.
+  const std::vector<StudyRun> runs =
+      stepped({run_of(0.04, 1.03, 10), run_of(0.04, 1, 10), run_of(0.04, 1.01, 10), run_of(0.01, 1.02, 11),
+               run_of(0, 4, 40)});
+  StudyFindings findings = find_out(sample_steps(), runs, sample_column, std::nullopt);
+  CHECK(cheapest_within(findings, runs, 0.1) == 3u);
+  findings.runs[3].error = 1;
+  CHECK(cheapest_within(findings, runs, 0.1) == 0u);
+}
+
 TEST_CASE("Errors against one of several runs of equal work have no order", "[study]") {
   // As of stiffnesses at one fixed step: the first of them is no finer than the others.
   const std::vector<StudyRun> runs = stepped({run_of(0, 1, 10), run_of(0.04, 1, 10), run_of(0.01, 1, 10),
