@@ -1,4 +1,5 @@
 #include "compare/comparison.hpp"
+#include "compare/left_out.hpp"
 
 #include "files/input_error.hpp"
 #include "output/history.hpp"
@@ -190,49 +191,6 @@ void add_deviations(const ComparisonOrder& order, Comparison& comparison, std::s
   }
 }
 
-/// A column of the reference that goes by the name of one of the runs, but in another unit.
-void warn_of_other_units(const ComparisonOrder& order, Comparison& comparison) {
-  const auto without_unit = [](const std::string& column) { return column.substr(0, column.rfind(" [")); };
-  const std::vector<std::string> columns = monitor_columns(order.scenes[0]);
-  for (const std::string& name : order.reference->series.names) {
-    if (std::ranges::count(columns, name) != 0) continue;
-    for (const std::string& column : columns) {
-      if (without_unit(column) != without_unit(name)) continue;
-      comparison.warnings.push_back(
-          fmt::format("{}: '{}' was left out, for the runs have '{}'", order.reference->file, name, column));
-    }
-  }
-}
-
-/// Of what is told of a run without being in its rows, or by few of them.
-void warn_of_rows(const ComparisonOrder& order, Comparison& comparison) {
-  const std::vector<double>& base = comparison.runs[0].result.history.time;
-  for (std::size_t run = 1; run < comparison.runs.size(); ++run) {
-    const std::vector<double>& own = comparison.runs[run].result.history.time;
-    const auto entry = std::ranges::find_if(comparison.deviations, [&](const ColumnDeviation& each) {
-      return each.run == run && !each.from_reference;
-    });
-    if (entry == comparison.deviations.end()) continue;
-    const std::string words = fmt::format("'{}' has rows at other times than '{}'",
-                                          comparison.runs[run].value, comparison.runs[0].value);
-    if (entry->deviation.between_rows) {
-      comparison.warnings.push_back(
-          words + ": between them one of the two was taken for a line; give both the same /output/history");
-    } else if (2 * entry->deviation.times < std::min(own.size(), base.size())) {
-      comparison.warnings.push_back(
-          fmt::format("{}: they are compared at the {} that both have", words, entry->deviation.times));
-    }
-    for (const double moment : order.moments) {
-      if ((row_at(own, moment) && row_at(base, moment)) || !(moment < std::min(own.back(), base.back())))
-        continue;
-      comparison.warnings.push_back(
-          fmt::format("--at {}: '{}' and '{}' do not both have a row of that time, so what is told is on the "
-                      "line between rows beside it",
-                      moment, comparison.runs[0].value, comparison.runs[run].value));
-    }
-  }
-}
-
 }  // namespace
 
 void check_order(const ComparisonOrder& order) {
@@ -247,11 +205,20 @@ void check_order(const ComparisonOrder& order) {
       throw InputError(
           fmt::format("--at {}: the runs go from 0 to {} s, so there is nothing to tell", moment, end));
   }
+  const auto shares_some = [&](const std::vector<std::string>& names) {
+    return std::ranges::any_of(columns,
+                               [&](const std::string& each) { return std::ranges::count(names, each) != 0; });
+  };
+  for (std::size_t run = 1; run < order.scenes.size(); ++run) {
+    const std::vector<std::string> own = monitor_columns(order.scenes[run]);
+    if (!shares_some(own))
+      throw InputError(fmt::format("'{}' and '{}' have no column in common to be compared by: '{}' and '{}'",
+                                   order.variation.values[0], order.variation.values[run],
+                                   fmt::join(columns, "', '"), fmt::join(own, "', '")));
+  }
   if (!order.reference) return;
   const std::vector<std::string>& names = order.reference->series.names;
-  for (const std::string& column : columns) {
-    if (std::find(names.begin(), names.end(), column) != names.end()) return;
-  }
+  if (shares_some(names)) return;
   throw InputError(fmt::format("{}: none of its columns is one of the scene's: it has '{}', the scene '{}'",
                                order.reference->file, fmt::join(names, "', '"), fmt::join(columns, "', '")));
 }
@@ -268,15 +235,9 @@ bool Comparison::tolerances_held() const {
 void evaluate(const ComparisonOrder& order, Comparison& comparison) {
   for (std::size_t run = 0; run < comparison.runs.size(); ++run) {
     if (run > 0) add_deviations(order, comparison, run, comparison.runs[0].result.history, false);
-    if (!order.reference) continue;
-    const std::size_t before = comparison.deviations.size();
-    add_deviations(order, comparison, run, order.reference->series, true);
-    if (comparison.deviations.size() == before)
-      comparison.warnings.push_back(fmt::format("'{}' has no time in common with {}",
-                                                comparison.runs[run].value, order.reference->file));
+    if (order.reference) add_deviations(order, comparison, run, order.reference->series, true);
   }
-  if (order.reference) warn_of_other_units(order, comparison);
-  warn_of_rows(order, comparison);
+  warn_of_what_is_left_out(order, comparison);
   const auto cut_short = [&](std::size_t run, const Tolerance& tolerance) {
     const double end = order.scenes[0].time.end;
     const auto ends_early = [&](const Series& series) {

@@ -130,6 +130,42 @@ TEST_CASE("a tolerance that cannot be checked is told of", "[compare][report]") 
   CHECK_THAT(comparison.warnings[1], Contains("--reference"));
 }
 
+TEST_CASE("a run that was stopped between rows is warned of", "[compare][report]") {
+  const ComparisonOrder order = example_order();
+  Comparison comparison = example_comparison();
+  RunResult& result = comparison.runs[1].result;
+  result.end = RunEnd::stopped;
+  result.time = 1.5;
+  result.history = {{0, 1}, {"block.speed [m/s]"}, {{0, 1}}};
+  SECTION("between rows") {
+    evaluate(order, comparison);
+    CHECK_THAT(comparison.warnings.back(),
+               Contains("'vertex_edge' was stopped at t = 1.5 s and is compared up to t = 1 s"));
+  }
+  SECTION("in the moment of its last row") {
+    result.history.time.back() = 1.5;
+    evaluate(order, comparison);
+    for (const std::string& warning : comparison.warnings) CHECK_THAT(warning, !Contains("was stopped"));
+  }
+  SECTION("before its first") {
+    result.history = {{}, {"block.speed [m/s]"}, {{}}};
+    evaluate(order, comparison);
+    CHECK(comparison.warnings.front() == "'vertex_edge' has no time in common with 'overlap_area'");
+  }
+}
+
+TEST_CASE("monitors that one run has are told of where others lack them", "[compare][report]") {
+  ComparisonOrder order = example_order();
+  order.scenes[1].monitors.push_back({"other", 0, {}, {"ux"}});
+  Comparison comparison = example_comparison();
+  evaluate(order, comparison);
+  CHECK_THAT(comparison.warnings[0],
+             Contains("'vertex_edge' has, and 'overlap_area' has not") && Contains("other.ux [m]"));
+  order.scenes[1].monitors.erase(order.scenes[1].monitors.begin());
+  CHECK_THROWS_WITH(check_order(order),
+                    Contains("'overlap_area' and 'vertex_edge' have no column in common"));
+}
+
 TEST_CASE("what is told between rows is warned of", "[compare][report]") {
   ComparisonOrder order = example_order();
   order.moments = {1};

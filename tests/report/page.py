@@ -134,15 +134,22 @@ def main():
     run, ab = folder / "run", folder / "ab"
     words = ["--overwrite", "--quiet"]
     subprocess.run([program, "run", "blocks.json", "--out", "run", *words], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    subprocess.run([program, "compare", "blocks.json", "--vary", "/contact/model=overlap_area,vertex_edge", "--out", "ab", *words],
-                   cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    tolerances = [{"monitor": "a", "quantity": "speed", "largest": 1e-9, "rms": 1e3}]
+    compared = subprocess.run([program, "compare", "blocks.json", "--vary", "/contact/model=overlap_area,vertex_edge", "--out", "ab",
+                               "--at", "0.00001", "--set", f"/tolerances={json.dumps(tolerances)}", *words],
+                              cwd=folder, stdout=subprocess.DEVNULL)
+    assert compared.returncode == 6, compared.returncode
     for result, charts in ((run, ["energy", "contacts"]), (ab, ["deviation", "energy", "contact forces"])):
         page = result / "report.html"
         open_page(driver, page)
         check_use(driver, charts)
         check_quiet(driver, page)
         driver.save_screenshot(str(folder / f"{result.name}-light.png"))
-    assert driver.find_element(By.ID, "deviation-table").text.count("vertex_edge") >= 6
+    deviations = driver.find_element(By.ID, "deviation-table").text.splitlines()
+    assert "at 0.00001 s" in deviations[0], deviations[0]
+    assert sum("vertex_edge" in row and not row.endswith("–") for row in deviations) >= 6, deviations
+    verdicts = driver.find_element(By.ID, "tolerance-table").text.splitlines()
+    assert verdicts[1].endswith("broken") and verdicts[2].endswith("held") and len(verdicts) == 3, verdicts
     assert "talus compare blocks.json --vary /contact/model=overlap_area,vertex_edge" in driver.find_element(By.ID, "provenance").text
     study = folder / "study"
     subprocess.run([program, "study", "blocks.json", "--vary", "/time/dt=4e-4,2e-4,1e-4", "--vary",

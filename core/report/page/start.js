@@ -5,6 +5,7 @@ deviationChart();
 energyChart();
 await motion();
 contactCharts();
+toleranceTable();
 deviationTable();
 costChart();
 provenance();

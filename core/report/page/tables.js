@@ -41,6 +41,37 @@ function tiles() {
   );
 }
 
+function headRow(words) {
+  return element('tr', {}, ...words.map((word) => element('th', {}, word)));
+}
+
+function toleranceTable() {
+  if (!comparison || !comparison.tolerances.length) return;
+  byId('tolerances').hidden = false;
+  const missed = comparison.tolerances.filter(({verdict}) => verdict !== 'held').length;
+  byId('tolerances-legend').textContent = missed
+    ? `${missed} of ${comparison.tolerances.length} not held`
+    : `all ${comparison.tolerances.length} held`;
+  const table = byId('tolerance-table');
+  table.append(headRow(['', 'run', 'against', 'measure', 'found', 'allowed', '']));
+  for (const each of comparison.tolerances)
+    table.append(
+      element(
+        'tr',
+        {},
+        ...[each.column, each.run, each.against, each.measure, number(each.found), number(each.allowed)].map(
+          (word) => element('td', {}, word),
+        ),
+        element('td', {class: each.verdict === 'held' ? 'held' : 'missed'}, each.verdict),
+      ),
+    );
+}
+
+// What --at asked for; the program may write the time otherwise than a browser does.
+function valueAt(entry, moment) {
+  return (Object.entries(entry.at).find(([time]) => Number(time) === moment) || [])[1];
+}
+
 function deviationTable() {
   if (!comparison || !Object.keys(comparison.deviations).length) return;
   byId('deviations').hidden = false;
@@ -48,15 +79,10 @@ function deviationTable() {
     `from ${runs[0].label}` +
     (data.reference ? ' and from the reference' : '') +
     '; the bar is RMS over the largest value';
+  const moments = comparison['moments [s]'] || [];
   const table = byId('deviation-table');
   table.append(
-    element(
-      'tr',
-      {},
-      ...['', 'run', 'from', 'largest', 'at t [s]', 'RMS', 'at the end'].map((word) =>
-        element('th', {}, word),
-      ),
-    ),
+    headRow(['', 'run', 'from', 'largest', 'at t [s]', 'RMS', 'at the end', ...moments.map((t) => `at ${t} s`)]),
   );
   for (const [name, of] of Object.entries(comparison.deviations)) {
     const base = runs[0].history.values[runs[0].history.names.indexOf(name)] || [];
@@ -80,6 +106,7 @@ function deviationTable() {
             ].map((word) => element('td', {}, word)),
             element('td', {}, bar, number(entry.rms)),
             element('td', {}, number(entry.final)),
+            ...moments.map((t) => element('td', {}, number(valueAt(entry, t)))),
           ),
         );
       }
