@@ -2,14 +2,15 @@
 #include "exit_code.hpp"
 #include "scene/tables.hpp"
 #include "scene_options.hpp"
+#include "study/study_text.hpp"
 #include "study_options.hpp"
 #include "terminal.hpp"
+#include "text/plain_number.hpp"
 #include "text/shell_word.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace talus {
 
@@ -19,11 +20,10 @@ namespace po = boost::program_options;
 
 double share_of(const Usage& usage, const std::string& text) {
   if (text.empty()) throw UsageError(usage.command, "--error 1% is missing");
-  char* end = nullptr;
-  double share = std::strtod(text.c_str(), &end);
-  const std::string rest = end;
-  if (rest == "%") share /= 100;
-  if (!(share > 0) || share > 1 || (!rest.empty() && rest != "%"))
+  const bool percent = text.ends_with('%');
+  const double share =
+      plain_number(text.substr(0, text.size() - (percent ? 1 : 0))).value_or(0) / (percent ? 100 : 1);
+  if (!(share > 0) || share > 1)
     throw UsageError(usage.command,
                      fmt::format("--error {}: give a share above 0, at most 1: 1% or 0.01", text));
   return share;

@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "study/study_text.hpp"
 #include "study_options.hpp"
 #include "terminal.hpp"
 

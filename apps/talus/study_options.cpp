@@ -12,6 +12,7 @@
 #include "study/rounding.hpp"
 #include "study/study_charts.hpp"
 #include "study/study_page.hpp"
+#include "study/study_text.hpp"
 #include "terminal.hpp"
 #include "text/shell_word.hpp"
 
@@ -88,7 +89,7 @@ void add_study_options(Usage& usage) {
       "what varies; may be given several times; with --sample also a range, low:high")(
       "sample", po::value<int>()->value_name("N"),
       "a Latin hypercube of N runs instead of all combinations; what listed values repeat is made once")(
-      "seed", po::value<std::uint64_t>()->value_name("S"), "of the sample (default: 1)")(
+      "seed", po::value<std::int64_t>()->value_name("S"), "of the sample (default: 1)")(
       "reference", po::value<std::string>()->value_name("FILE.csv"),
       "curve to measure errors from (default: the run that did the most work)")(
       "metric", po::value<std::string>()->value_name("MONITOR.QUANTITY"),
@@ -110,9 +111,15 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
   if (variations.empty()) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
   for (std::size_t i = 0; i < variations.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (variations[i].pointer == variations[j].pointer)
-        throw UsageError(usage.command, fmt::format("--vary {} is given twice: give all values of it at once",
-                                                    variations[i].pointer));
+      const std::string &one = variations[i].pointer, &other = variations[j].pointer;
+      if (one == other)
+        throw UsageError(usage.command,
+                         fmt::format("--vary {} is given twice: give all values of it at once", one));
+      if (one.starts_with(other + "/") || other.starts_with(one + "/"))
+        throw UsageError(usage.command,
+                         fmt::format("--vary {} and --vary {}: the one is within the other, so that it "
+                                     "would say nothing of what varies",
+                                     other, one));
     }
   }
   if (given.count("sample") == 0) {
@@ -120,10 +127,11 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
       throw UsageError(usage.command, "--seed is of a --sample, which is missing");
     return grid(variations);
   }
-  const std::uint64_t seed = given.count("seed") == 0 ? 1 : given["seed"].as<std::uint64_t>();
+  const std::int64_t seed = given.count("seed") == 0 ? 1 : given["seed"].as<std::int64_t>();
+  if (seed < 0) throw UsageError(usage.command, fmt::format("--seed {}: allowed are 0 and more", seed));
   const int count = given["sample"].as<int>();
   if (count < 1) throw UsageError(usage.command, fmt::format("--sample {}: allowed are 1 and more", count));
-  return latin_hypercube(variations, static_cast<std::size_t>(count), seed);
+  return latin_hypercube(variations, static_cast<std::size_t>(count), static_cast<std::uint64_t>(seed));
 }
 
 Study make_study(const Usage& usage, const po::variables_map& given, const std::vector<std::string>& words,

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "arguments.hpp"
-#include "study/study_text.hpp"
+#include "scene_options.hpp"
+#include "study/findings.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -4,12 +4,12 @@
 #include "files/input_error.hpp"
 #include "simulation/simulation.hpp"
 #include "study/orders.hpp"
+#include "text/plain_number.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 namespace talus {
@@ -55,9 +55,8 @@ void mark_front(const std::vector<StudyRun>& runs, std::vector<StudyFinding>& fi
 }
 
 std::optional<double> number_in(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == 0 && value > 0 ? std::optional(value) : std::nullopt;
+  const std::optional<double> value = plain_number(text);
+  return value && *value > 0 ? value : std::nullopt;
 }
 
 std::string words_of_nothing(const StudyPlan& plan, const std::vector<StudyRun>& runs) {

@@ -2,11 +2,11 @@
 
 #include "files/input_error.hpp"
 #include "random/random.hpp"
+#include "text/plain_number.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -30,15 +30,13 @@ std::optional<Span> span_of(const Variation& variation) {
   const std::size_t colon = variation.values[0].find(':');
   if (variation.values.size() != 1 || colon == std::string::npos) return std::nullopt;
   const std::string low = variation.values[0].substr(0, colon), high = variation.values[0].substr(colon + 1);
-  char *low_end = nullptr, *high_end = nullptr;
-  const Span span{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
-  const bool numbers = !low.empty() && !high.empty() && *low_end == 0 && *high_end == 0;
-  if (!numbers) return std::nullopt;
-  if (!(std::isfinite(span.low) && std::isfinite(span.high) && span.low < span.high)) {
+  const std::optional<double> from = plain_number(low), to = plain_number(high);
+  const auto endless = [](const std::string& end) { return end == "inf" || end == "nan"; };
+  if (!(from || endless(low)) || !(to || endless(high))) return std::nullopt;
+  if (!from || !to || !(*from < *to))
     throw InputError(fmt::format("--vary {}={}: a range is low:high, two numbers", variation.pointer,
                                  variation.values[0]));
-  }
-  return span;
+  return Span{*from, *to};
 }
 
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
