@@ -108,7 +108,8 @@ void warn_of_run(const Scene& scene, const Safety& safety) {
   const ReducedRun& stood = run_at(safety, *safety.stands);
   if (!stood.came_to_rest.empty())
     print_warning(fmt::format(
-        "at {:.4g} these stand only after they moved by a hundredth of their width or more: where "
+        "at {:.4g} these stand only after they moved by a hundredth of their width, or of the size of their "
+        "elements, or more: where "
         "they met something that stops them, what they slide on bears less than the factor says; where they "
         "lean on contacts that give, it bears more, and stiffer ones show how much: {}",
         stood.factor, listed(names_of(scene, stood.came_to_rest))));
@@ -248,6 +249,10 @@ int safety_command(const Words& words) {
   fmt::print("{:>10}  {:<10}{:>18}  {:<20}{:>15}\n", "factor", "", "displacement [m]", "of", "kinetic [J/m]");
   settings.tried = [&](const ReducedRun& run) { say_try(scene, run); };
   const Safety safety = factor_of_safety(scene, settings);
+  if (!safety.trouble.empty()) {
+    for (const std::string& warning : safety.warnings) print_warning(warning);
+    throw NumericalTrouble(safety.trouble);
+  }
   write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
   write_whole_file(folder / "safety.svg", safety_svg(safety));
   if (const std::string mechanism = mechanism_svg(scene, safety); !mechanism.empty())

@@ -8,8 +8,8 @@
 namespace talus {
 namespace {
 
-constexpr double seen = 1e-3;     ///< share of the width
-constexpr double lost = 0.05;     ///< share of the width: whatever stops further on has failed, too
+constexpr double seen = 1e-3;     ///< share of the size
+constexpr double lost = 0.05;     ///< share of the size: whatever stops further on has failed, too
 constexpr double steady = 0.45;   ///< of the way, in the second half of the time: one half at constant speed
 constexpr double kept = 0.9;      ///< of the speed in the middle, at the end
 constexpr double slowing = 0.25;  ///< of the way, and of that speed: slower, but not at rest
@@ -62,8 +62,10 @@ Pieces::Pieces(const Simulation& settled) {
       points[fragment[part]].push_back(point.position);
     });
     for (const Ring& ring : points)
-      pieces_.push_back(
-          {body, std::min(smallest_width(ring), settled.body_width(body)), {!driven[0], !driven[1]}});
+      pieces_.push_back({body,
+                         smallest_width(ring),
+                         std::min(smallest_width(ring), settled.body_width(body)),
+                         {!driven[0], !driven[1]}});
   }
 }
 
@@ -96,10 +98,10 @@ PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec
 }
 
 Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
-  const double way = end.way[piece], lately = way - middle.way[piece], width = pieces_[piece].width;
-  const bool far = way > seen * width,
+  const double way = end.way[piece], lately = way - middle.way[piece], size = pieces_[piece].size;
+  const bool far = way > seen * size,
              goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
-  if (end.moved[piece] > lost * width)
+  if (end.moved[piece] > lost * size)
     return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
   if (goes_on) return far ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
@@ -118,13 +120,13 @@ std::vector<std::size_t> Pieces::gone(const PieceMotions& motions) const {
 }
 
 double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
-  return std::sqrt(seen * pieces_[piece].width / end.way[piece]);
+  return std::sqrt(seen * pieces_[piece].size / end.way[piece]);
 }
 
 double Pieces::time_to_tell(double acceleration) const {
-  double width = 0;
-  for (const FollowedPiece& piece : pieces_) width = std::max(width, piece.width);
-  return std::sqrt(2 * seen * width / acceleration);
+  double size = 0;
+  for (const FollowedPiece& piece : pieces_) size = std::max(size, piece.size);
+  return std::sqrt(2 * seen * size / acceleration);
 }
 
 }  // namespace talus

@@ -13,7 +13,8 @@ bool is_driven(const Scene& scene, std::size_t body);
 /// A body, or a fragment that joints cut out of it.
 struct FollowedPiece {
   std::size_t body;
-  double width;                ///< m, the smallest across it; the size of its elements where that is less
+  double width;                ///< m, the smallest across it
+  double size;                 ///< m, that, or the size of its elements where it is less
   std::array<bool, 2> counts;  ///< whether motion along x, y does: not where the scene drives the body
 };
 

@@ -309,7 +309,7 @@ class Reduction {
         result.body = body;
       }
       const Course course = pieces_->course(i, middle, end);
-      if (course == Course::rests && end.moved[i] > jammed * pieces_->all()[i].width)
+      if (course == Course::rests && end.moved[i] > jammed * pieces_->all()[i].size)
         add(result.came_to_rest, body);
       if (course == Course::failed || course == Course::stopped) add(result.moving, body);
       goes_on = goes_on || course == Course::failed;
@@ -398,9 +398,11 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
   }
   const auto stopped = [](const ReducedRun& run) { return !run.trouble.empty(); };
   if (!safety.interrupted && !safety.stands && std::ranges::all_of(safety.runs, stopped)) {
-    throw NumericalTrouble(
-        fmt::format("runs are stopped however strong the scene is, which says nothing of its safety: {}",
-                    safety.runs.back().trouble));
+    safety.trouble = fmt::format(
+        "runs with 1 to {:.3g} times the strength are all stopped, which says nothing of safety{}: {}",
+        1 / safety.runs.back().factor,
+        scene.settle ? "; they start from what the scene settles to with its own strength" : "",
+        safety.runs.back().trouble);
   }
   return safety;
 }

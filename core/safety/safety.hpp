@@ -53,6 +53,7 @@ struct Safety {
   bool interrupted = false;
   bool of_what_is_left = false;       ///< some of the scene went while it settled with its full strength
   std::vector<std::string> warnings;  ///< of the run that settled with full strength
+  std::string trouble;                ///< in words, where every run was stopped and nothing was found
 
   std::optional<double> factor() const;  ///< of safety, between the two
 };

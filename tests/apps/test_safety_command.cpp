@@ -130,7 +130,15 @@ TEST_CASE("talus safety does not take trouble at any strength for a collapse", "
   const Call call = call_talus(
       scratch.folder(), {"safety", TALUS_SCENES "/column.json", "--set", "/time/dt=2e-4", "--out", "column"});
   CHECK(call.code == 4);
-  CHECK_THAT(call.err, Contains("however strong the scene is") && Contains("the step"));
+  CHECK_THAT(call.err,
+             Contains("runs with 1 to 9.31 times the strength are all stopped") && Contains("the step"));
+  // All of them start from where the scene settles to, which is told with what that says.
+  const Call settled = call_talus(
+      scratch.folder(), {"safety", TALUS_SCENES "/column.json", "--set", "/time/dt=2e-4", "--set",
+                         R"(/settle={"duration": 0.001, "damping": 10, "until": 1e-6})", "--out", "settled"});
+  CHECK(settled.code == 4);
+  CHECK_THAT(settled.err,
+             Contains("warning: settling ended with its duration") && Contains("with its own strength"));
 }
 
 TEST_CASE("talus safety tells a run that was stopped from one that collapsed", "[apps][safety]") {
