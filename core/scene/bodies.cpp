@@ -82,8 +82,10 @@ Support read_support(Reading& reading, Section& body) {
 void check_fixed(Section& section, const SceneBody& body) {
   if (!body.fixed) return;
   for (const char* key : {"fix", "drive", "discontinuities", "self_contact"}) {
-    const bool idle = std::string_view(key) == "self_contact" && !body.self_contact;
-    if (!section.has(key) || idle) continue;
+    const Json* given = section.child(key);
+    const bool asks_for_nothing =
+        given != nullptr && (*given == false || (given->is_structured() && given->empty()));
+    if (given == nullptr || asks_for_nothing) continue;
     section.mistakes().add_at_key(
         section.pointer_to(key),
         fmt::format("the body is \"fixed\", which leaves nothing for \"{}\": keep one of the two", key));

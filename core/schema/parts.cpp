@@ -227,7 +227,9 @@ std::vector<Key> shared_keys() {
 
 /// A body without unknowns is neither held nor cut.
 OrderedJson nothing_held_where_fixed(const std::vector<std::string>& keys) {
-  OrderedJson consequence = forbidden(keys);
+  OrderedJson consequence = OrderedJson::object();
+  for (const std::string& key : keys)
+    consequence["properties"][key] = {{"maxItems", 0}, {"maxProperties", 0}};
   consequence["properties"]["self_contact"] = {{"const", false}};
   return if_then({{"properties", {{"fixed", {{"const", true}}}}}, {"required", {"fixed"}}}, consequence);
 }

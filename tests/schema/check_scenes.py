@@ -87,7 +87,7 @@ BROKEN = [
     ("/blocks/2/voronoi/count", REMOVED), ("/stages/0/set", REMOVED), ("/tolerances/0/largest", REMOVED),
     ("/contact/model", REMOVED), ("/settle/duration", REMOVED),
     # keys that do not go together
-    ("/bodies/0/fix", ["x"]), ("/bodies/1/mesh", "a.msh"), ("/blocks/2/voronoi/spacing", 1),
+    ("/bodies/0/fix", ["x"]), ("/bodies/0/drive", {"x": 0}), ("/bodies/1/mesh", "a.msh"), ("/blocks/2/voronoi/spacing", 1),
     ("/blocks/2/voronoi/jitter", 0.1), ("/blocks/0/joint_sets/0/persistence", 0.5),
     ("/blocks/0/joint_sets/0/gap", 1),
     # names
@@ -104,7 +104,8 @@ VARIED = [
     ("/cover", {"model": "hexagonal", "size": 0.5, "slivers": "keep"}), ("/contact/model", "frictionless"),
     ("/blocks/2/voronoi", {"spacing": 0.5, "jitter": 0.1, "seed": 3}), ("/damping", "kinetic"), ("/limits", REMOVED),
     ("/blocks/0/joint_sets/0", {"dip": 45, "spacing": 1, "persistence": 0.9, "gap": 0.1}), ("/time/dt", 1e-5),
-    ("/contact/cohesive_overlap", {}),
+    ("/contact/cohesive_overlap", {}), ("/bodies/0/fix", []), ("/bodies/0/drive", {}),
+    ("/bodies/0/discontinuities", []),
     ("/materials/rock", {"density": 1, "model": "mohr_coulomb", "young_modulus": 1e8, "poisson_ratio": 0.2,
                          "friction_angle": 30, "cohesion": 1e6}),
 ]
