@@ -5,6 +5,7 @@
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "output/output_folder.hpp"
+#include "output/records.hpp"
 #include "output/run_record.hpp"
 #include "scene/files.hpp"
 #include "text/shell_word.hpp"
@@ -117,6 +118,12 @@ std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& give
   if (!std::filesystem::exists(file) && holds_finished_run(given))
     throw InputError(
         fmt::format("the run in '{}' is at its end, so nothing is kept to go on with", given.string()));
+  if (!std::filesystem::exists(file) &&
+      (comparison_record_in(given) || comparison_record_in(given.parent_path())))
+    throw InputError(
+        fmt::format("'{}' is of a comparison, which keeps no checkpoint: it begins anew with the words that "
+                    "began it",
+                    given.string()));
   return file;
 }
 

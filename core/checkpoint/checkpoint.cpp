@@ -73,7 +73,7 @@ Checkpoint checkpoint_of(const Json& header, const std::string& file) {
   checkpoint.reason = header.at("reason");
   checkpoint.scene_file = header.at("scene_file").get<std::string>();
   checkpoint.scene_text = header.at("scene_text");
-  checkpoint.scene_hash = header.value("scene_xxh3_128", hash_of_bytes(checkpoint.scene_text));
+  checkpoint.scene_hash = header.at("scene_xxh3_128");
   checkpoint.files = header.at("files").get<std::map<std::string, std::string>>();
   for (const Json& change : header.at("set")) checkpoint.overrides.push_back({change.at(0), change.at(1)});
   checkpoint.allow_plugins = header.at("allow_plugins");

@@ -63,13 +63,18 @@ std::filesystem::path followed(std::filesystem::path file) {
   return file;
 }
 
-/// A new file beside one, which nobody else has or leads elsewhere: FILE.part, or FILE.part2 and so on where
-/// that is there.
+constexpr int most_temporaries = 100;
+
+/// FILE.part, FILE.part2 and so on.
+std::filesystem::path temporary_of(std::filesystem::path file, int number) {
+  file += number == 1 ? ".part" : fmt::format(".part{}", number);
+  return file;
+}
+
+/// A new file beside one, which nobody else has or leads elsewhere.
 std::filesystem::path new_beside(const std::filesystem::path& file) {
-  constexpr int most_tried = 100;
-  for (int number = 1; number <= most_tried; ++number) {
-    std::filesystem::path temporary = file;
-    temporary += number == 1 ? ".part" : fmt::format(".part{}", number);
+  for (int number = 1; number <= most_temporaries; ++number) {
+    std::filesystem::path temporary = temporary_of(file, number);
     const int descriptor =
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0 && (errno == EEXIST || errno == ELOOP)) continue;
@@ -142,9 +147,9 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   stream.close();
   if (!stream) fail_without(temporary, place);
-  // What may be done with it is as with the one whose place it takes, unless that is somebody else's.
+  // What may be done with it is as with the one whose place it takes.
   if (struct stat former{}; ::stat(place.c_str(), &former) == 0)
-    ::chmod(temporary.c_str(), former.st_mode & 07777);
+    ::chmod(temporary.c_str(), former.st_mode & 0777);
   if (durability == Durability::on_disk && !flushed(temporary)) fail_without(temporary, place);
   std::filesystem::rename(temporary, place, problem);
   if (problem) {
@@ -152,6 +157,15 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
     fail_without(temporary, place);
   }
   if (durability == Durability::on_disk) flush_to_disk(folder_of(place));
+}
+
+std::vector<std::filesystem::path> temporaries_of(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> found;
+  for (int number = 1; number <= most_temporaries; ++number) {
+    std::filesystem::path temporary = temporary_of(file, number);
+    if (std::filesystem::exists(temporary)) found.push_back(std::move(temporary));
+  }
+  return found;
 }
 
 void flush_to_disk(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace talus {
 
@@ -14,6 +15,9 @@ enum class Durability { with_the_system, on_disk };
 /// last from where they stand. Throws std::system_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view contents,
                       Durability durability = Durability::with_the_system);
+
+/// What writers that were killed left beside a file, or would have: temporaries that are there.
+std::vector<std::filesystem::path> temporaries_of(const std::filesystem::path& file);
 
 /// Sees to it that what was written to a file, or for the names in it to a folder, outlives a failure of the
 /// power. Throws std::system_error that names it.

@@ -77,6 +77,8 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::uint64_t si
 }
 
 void HistoryWriter::refuse_other(const std::filesystem::path& file, std::span<const std::string> columns) {
+  if (!std::filesystem::exists(file))
+    throw InputError(fmt::format("'{}', which the run left, is gone; nothing was written", file.string()));
   std::ifstream stream(file, std::ios::binary);
   std::string head;
   std::getline(stream, head);

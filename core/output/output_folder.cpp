@@ -3,6 +3,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
+#include "files/whole_file.hpp"
 #include "output/quantity.hpp"
 #include "output/records.hpp"
 
@@ -22,10 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// By the name that a run gives it, with six digits and more: others may lie beside, and are not ours.
 bool is_frame(const fs::path& file) {
   const std::string name = file.filename().string();
-  return (name.starts_with("frame_") || name.starts_with("contacts_")) &&
-         (name.ends_with(".vtu") || name.ends_with(".vtu.part"));
+  const std::size_t digits = name.find('_') + 1, end = name.find_first_not_of("0123456789", digits);
+  return (name.starts_with("frame_") || name.starts_with("contacts_")) && end != std::string::npos &&
+         end - digits >= 6 && (name.substr(end) == ".vtu" || name.substr(end).starts_with(".vtu.part"));
 }
 
 constexpr const char* files_of_run[] = {
@@ -37,10 +40,8 @@ constexpr const char* files_of_study[] = {"study.csv", "study.json", "study.svg"
 std::vector<fs::path> present(const fs::path& folder, std::span<const char* const> names) {
   std::vector<fs::path> found;
   for (const char* name : names) {
-    for (const char* ending : {"", ".part"}) {
-      if (fs::exists(folder / (std::string(name) + ending)))
-        found.push_back(folder / (std::string(name) + ending));
-    }
+    if (fs::exists(folder / name)) found.push_back(folder / name);
+    for (fs::path& temporary : temporaries_of(folder / name)) found.push_back(std::move(temporary));
   }
   return found;
 }
@@ -163,8 +164,9 @@ void prepare_output_folder(const fs::path& folder, bool overwrite, const std::ve
 void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>& read) {
   refuse_file(folder);
   if (const std::vector<fs::path> results = results_in(folder); !results.empty()) {
-    throw InputError(fmt::format("'{}' holds results of a single run ('{}'): give --out another folder",
-                                 folder.string(), results[0].filename().string()));
+    throw InputError(fmt::format(
+        "'{}' holds results of {} ('{}'): give --out another folder", folder.string(),
+        comparison_record_in(folder) ? "a comparison" : "a single run", results[0].filename().string()));
   }
   for (const char* name : files_of_study) refuse_to_remove(folder / name, read);
   fs::create_directories(folder);

@@ -1,5 +1,7 @@
 #include "output/run_keeper.hpp"
 
+#include "files/whole_file.hpp"
+
 #include <utility>
 
 namespace talus {
@@ -97,9 +99,10 @@ void RunKeeper::put(Checkpoint& checkpoint, const std::string& reason) {
 
 void RunKeeper::drop() {
   if (!order_.checkpoints) return;
-  std::error_code kept;                     // a folder that nothing can be removed from spoils no results
-  for (const char* ending : {"", ".part"})  // of a run that was killed while it wrote one
-    std::filesystem::remove(order_.folder / (std::string(checkpoint_name) + ending), kept);
+  std::error_code kept;  // a folder that nothing can be removed from spoils no results
+  const std::filesystem::path file = order_.folder / checkpoint_name;
+  std::filesystem::remove(file, kept);
+  for (const std::filesystem::path& left : temporaries_of(file)) std::filesystem::remove(left, kept);
   result_.checkpoint.clear();
 }
 

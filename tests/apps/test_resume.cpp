@@ -204,11 +204,11 @@ TEST_CASE("resume spoils no results of another run", "[apps][resume]") {
   std::filesystem::remove(scratch / "other/run.json");
   CHECK_THAT(refused("other"), Contains("history.csv' is not what the run left"));
   std::filesystem::create_directory(scratch / "empty");
-  CHECK_THAT(refused("empty"), Contains("history.csv' is not what the run left"));
+  CHECK_THAT(refused("empty"), Contains("history.csv', which the run left, is gone"));
   std::filesystem::copy(scratch / "broken", scratch / "half");
   std::filesystem::remove(scratch / "half/checkpoint.talus");
   std::filesystem::remove(scratch / "half/energy.csv");
-  CHECK_THAT(refused("half"), Contains("energy.csv' is not what the run left"));
+  CHECK_THAT(refused("half"), Contains("energy.csv', which the run left, is gone"));
 }
 
 TEST_CASE("resume refuses rows that were written anew, and leaves them as they are", "[apps][resume]") {
@@ -367,7 +367,7 @@ TEST_CASE("resume refuses what would not go on to the same bits", "[apps][resume
   std::filesystem::remove(scratch / "broken/history.csv");
   call = call_talus(scratch.folder(), {"resume", "broken"});
   CHECK(call.code == 2);
-  CHECK_THAT(call.err, Contains("history.csv") && Contains("is not what the run left"));
+  CHECK_THAT(call.err, Contains("history.csv', which the run left, is gone"));
   CHECK(call_talus(scratch.folder(), {"resume", "broken", "--wall-time", "-1"}).code == 2);
 }
 
