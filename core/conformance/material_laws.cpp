@@ -233,6 +233,9 @@ void check_tangent(const Subject& subject, Trial& trial) {
   trial.at_most(
       stiffest, 100 * measured,
       fmt::format("declared stiffness of the fastest wave, ρ c² [Pa], where {:.9g} is measured", measured));
+  for (const int k : {0, 4, 8})
+    trial.due(declared[k] > 0, fmt::format("{:.9g} Pa on the diagonal of the declared tangent", declared[k]),
+              "more than 0");
   for (int k : {1, 2, 5}) {
     trial.at_most(std::abs(declared[k] - declared[k == 1   ? 3
                                                   : k == 2 ? 6
@@ -255,6 +258,7 @@ void check_tangent(const Subject& subject, Trial& trial) {
     }
   }
   const auto viscous = sample_material(subject, {{"damping_time", 2e-4}});
+  trial.feed("nothing but damping_time 2e-4 s where there is one");
   trial.due(std::isfinite(viscous->viscous_time()) && viscous->viscous_time() >= 0,
             fmt::format("a viscous time of {} s", viscous->viscous_time()), "a finite number from 0 on");
   trial.feed("a strain of 1e-7 within 1 ms and at rest, damping_time 2e-4 s where there is one");

@@ -170,7 +170,11 @@ double boundary_length(const GivenShape& given) {
 
 /// What makes it no cover of the body, in words; "" if nothing.
 std::string fault_of(const LaidCover& cover, const GivenShape& given) {
-  if (cover.rigid) return "";
+  if (cover.rigid) {
+    if (cover.patches.empty() && cover.elements.empty()) return "";
+    return fmt::format("it made {} patches and {} elements of a rigid body, which has none",
+                       cover.patches.size(), cover.elements.size());
+  }
   if (cover.elements.empty()) return "it made no element";
   double area = 0;
   for (const LaidCover::LaidElement& element : cover.elements) {

@@ -31,6 +31,11 @@ constexpr std::string_view beside_material_parameters[] = {"density", "model"};
 constexpr std::string_view beside_cover_parameters[] = {"model"};
 constexpr std::string_view beside_interface_parameters[] = {"between"};
 
+constexpr const char* unfit_text =
+    "found text with control characters, or that is no UTF-8, which goes into lists and JSON; wanted one "
+    "line of UTF-8; "
+    "correct it and rebuild the library";
+
 bool contains(Reserved words, std::string_view word) {
   return std::ranges::find(words, word) != words.end();
 }
@@ -101,11 +106,12 @@ std::optional<std::string> reason_in_range(const Parameter& parameter) {
 
 std::optional<std::string> reason_in_parameter(const Parameter& parameter, Reserved reserved) {
   if (auto reason = reason_in_name(parameter.key, reserved)) return reason;
-  if (parameter.unit == nullptr || parameter.sentence == nullptr) {
+  if (empty(parameter.unit) || empty(parameter.sentence)) {
     return "found no unit or no sentence, wanted both ('-' is the unit of a pure number); set them and "
            "rebuild "
            "the library";
   }
+  if (!printable(parameter.unit) || !printable(parameter.sentence)) return unfit_text;
   switch (parameter.kind) {
     case ParameterKind::choice:
       return reason_in_choices(parameter);
@@ -165,9 +171,10 @@ std::optional<std::string> reason_to_refuse(const Component& component) {
     return "found no name, wanted what a scene writes as \"model\"; set it and rebuild the library";
   }
   if (auto reason = reason_in_name(component.name, names_beside)) return reason;
-  if (component.sentence == nullptr) {
+  if (empty(component.sentence)) {
     return "found no sentence that says what it is, wanted one; set it and rebuild the library";
   }
+  if (!printable(component.sentence)) return unfit_text;
   if (component.create == nullptr || component.destroy == nullptr) {
     return fmt::format(
         "found no `{}`, wanted both functions; use talus::create_component and "

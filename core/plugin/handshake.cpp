@@ -1,6 +1,8 @@
 #include "plugin/instructions.hpp"
 #include "plugin/refusal.hpp"
+
 #include "plugin/registry.hpp"
+#include "text/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +57,12 @@ std::optional<std::string> reason_in_identity(const Library& library) {
     if (text == nullptr || *text == '\0') {
       return fmt::format("found no {} in its descriptor, wanted one; set talus_library.{} and rebuild it",
                          member, member);
+    }
+    if (!printable(text)) {
+      return fmt::format(
+          "found a {} with control characters, or that is no UTF-8, wanted one line of UTF-8; correct "
+          "talus_library.{} and rebuild it",
+          member, member);
     }
   }
   if (library.component_count == 0 || library.components == nullptr) {

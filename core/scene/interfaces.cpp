@@ -114,7 +114,7 @@ std::optional<std::array<Side, 2>> read_between(Reading& reading, const Names& n
 /// Whether a reviewer would ask why it is there when the law does not read it.
 bool matters(std::string_view key) {
   return key == "cohesion" || key == "tensile_strength" || key == "friction_angle" ||
-         key.starts_with("tangential_");
+         key.starts_with("tangential_") || key == "normal_damping";
 }
 
 /// Keys that the chosen law does not read: those of the vocabulary, and of other laws the scene may be varied

@@ -1,4 +1,5 @@
 #include "contact/thin_ground.hpp"
+#include "geometry/polygon.hpp"
 #include "scene/tables.hpp"
 #include "simulation/state.hpp"
 #include "text/place.hpp"
@@ -181,7 +182,19 @@ void Simulation::State::check_step() const {
   }
 }
 
+/// What contacts hold is never less than nothing; that a law says so hides what it makes.
+void Simulation::State::check_stored() const {
+  const double stored = contact_totals.stored;
+  if (!(stored < 0 && ledger.share(stored) > 1e-6)) return;  // else that is rounding
+  const RegisteredComponent& law = *scene.contact.component;
+  throw NumericalTrouble(fmt::format(
+      "{}: contact law '{}' gave a stored energy of {:.3g} J/m in all at t = {:.9g} s; wanted 0 or more; "
+      "mend the law or choose another",
+      law.file.string(), law.component->name, stored, time));
+}
+
 void Simulation::State::check_balance() {
+  check_stored();
   const double share = ledger.residual_share();
   if (share > summary.largest_residual_share) {
     if (share > warn_residual && summary.largest_residual_share <= warn_residual) {
@@ -197,14 +210,16 @@ void Simulation::State::check_balance() {
                         place(contact_totals.deepest_a), place(contact_totals.deepest_b))
           : "";
   const Component* law = scene.contact.component == nullptr ? nullptr : scene.contact.component->component;
-  const std::string of_the_law =
-      law != nullptr && (law->traits & trait::has_potential) == 0
+  const bool no_potential = law != nullptr && (law->traits & trait::has_potential) == 0;
+  const std::string otherwise =
+      no_potential
           ? fmt::format("; where that changes nothing, '{}', which has no potential, makes or loses it",
                         law->name)
+      : plan.dt < critical.dt
+          ? "; where that changes nothing, `talus check-plugin` tells whether law and materials book "
+            "what they take"
           : "";
-  const char* const advice = plan.dt < hardly_the_step * critical.dt
-                                 ? "hardly the step; `talus check-plugin` tells whether law and materials "
-                                   "book what they take"
+  const char* const advice = plan.dt < hardly_the_step * critical.dt ? "hardly the step"
                              : law != nullptr ? "take a smaller one, or damp the contacts"
                                               : "take a smaller one";
   throw NumericalTrouble(
@@ -213,7 +228,7 @@ void Simulation::State::check_balance() {
                   "critical {:.3g} s ({}): {}{}",
                   time, ledger.ledger().residual, 100 * share, ledger.ledger().throughput,
                   100 * scene.limits.energy_residual, deepest, plan.dt, plan.dt / critical.dt, critical.dt,
-                  limiter_of(scene, critical), advice, of_the_law));
+                  limiter_of(scene, critical), advice, otherwise));
 }
 
 void Simulation::State::warn_of_large_step() {
@@ -265,7 +280,7 @@ void Simulation::State::warn_of_settlement() {
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.moves(i)) continue;
     const double way = size_of(motion.displacement(model.point(i, {})));
-    if (!(way > far_to_settle * model.bodies[i].width)) continue;
+    if (!(way > far_to_settle * smallest_width(scene.bodies[i].outer.vertices))) continue;
     ++count;
     if (way > most) most = way, farthest = i;
   }

@@ -63,9 +63,9 @@ void LedgerKeeper::lose_asleep(double kinetic, double damping_ahead) {
   damping_ahead_ -= damping_ahead;
 }
 
-double LedgerKeeper::residual_share() const {
+double LedgerKeeper::share(double energy) const {
   const double scale = std::max(ledger_.throughput, floor_);
-  return scale > 0 ? std::abs(ledger_.residual) / scale : 0;
+  return scale > 0 ? std::abs(energy) / scale : 0;
 }
 
 }  // namespace talus

@@ -43,7 +43,8 @@ class LedgerKeeper {
   void set_floor(double floor) { floor_ = floor; }
 
   const EnergyLedger& ledger() const { return ledger_; }
-  double residual_share() const;  ///< of the throughput; 0 while nothing has moved
+  double share(double energy) const;  ///< of J/m in the throughput; 0 while nothing has moved
+  double residual_share() const { return share(ledger_.residual); }
 
  private:
   double stored() const { return ledger_.kinetic + ledger_.strain + ledger_.contact; }

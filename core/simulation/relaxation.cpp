@@ -1,5 +1,7 @@
 #include "simulation/relaxation.hpp"
 
+#include "simulation/velocity_update.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -136,6 +136,7 @@ struct Simulation::State {
   void check_materials(double kinetic) const;
   void check_step() const;
   std::string above_critical() const;
+  void check_stored() const;
   void check_balance();
   void warn_of_large_step();
   void warn_of_initial_overlap();

@@ -151,6 +151,7 @@ TEST_CASE("a law that does not keep to the interface fails in the one check that
 
 TEST_CASE("a material that is wrong fails in the one check that is meant for it", "[conformance]") {
   expect_one_failure({{"denies_viscosity", "losses"},
+                      {"falls_back", "tangent"},
                       {"ignores_rotation", "objectivity"},
                       {"invents_viscosity", "losses"},
                       {"keeps_too_much", "parameters"},

@@ -30,6 +30,16 @@ TEST_CASE("A run stops with words when a law breaks the rules of loads", "[conta
   CHECK_THAT(trouble_of("couple"), Contains("leave a moment of 1 N over"));
 }
 
+TEST_CASE("A law that says contacts hold less energy than none stops the run and is named", "[contact]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
+                                                  "--set", "/contact/model=debt"});
+  CHECK(call.code == 4);
+  CHECK_THAT(call.err, Contains("libmisbehaving.so: contact law 'debt' gave a stored energy of -1 J/m") &&
+                           Contains("mend the law or choose another"));
+}
+
 TEST_CASE("A law that prepares an interface by what is no number is refused with the parameter",
           "[contact]") {
   const Scratch scratch;

@@ -5,7 +5,7 @@
 
 namespace {
 
-enum class Slip { nan_load, nan_report, nan_contact, nan_dashpot, past_the_end, one_sided, couple };
+enum class Slip { nan_load, nan_report, nan_contact, nan_dashpot, past_the_end, one_sided, couple, debt };
 
 /// Says of every pair that it touches, without a load but for one slip.
 template <Slip slip>
@@ -27,6 +27,7 @@ class Misbehaving : public SilentLaw {
       for (std::uint32_t load = pieces.load_start; load < end; ++load) loads.corner[load] = {0, 0};
       if (slip == Slip::nan_load) loads.corner[of_b].y = not_a_number;
       if (slip == Slip::nan_report) report.stored = not_a_number;
+      if (slip == Slip::debt) report.stored = -1;
       if (slip == Slip::nan_dashpot) report.damping_force = std::numeric_limits<float>::quiet_NaN();
       if (slip == Slip::nan_contact && pair.slot_capacity > 0)
         loads.reports[pair.slot_start].px = not_a_number;
@@ -63,8 +64,9 @@ constexpr talus::Component components[] = {law<Misbehaving<Slip::nan_contact>>("
                                            law<Misbehaving<Slip::nan_report>>("nan_report"),
                                            law<Misbehaving<Slip::past_the_end>>("past_the_end"),
                                            law<Misbehaving<Slip::one_sided>>("one_sided"),
-                                           law<Misbehaving<Slip::couple>>("couple")};
+                                           law<Misbehaving<Slip::couple>>("couple"),
+                                           law<Misbehaving<Slip::debt>>("debt")};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 8);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 9);

@@ -43,6 +43,9 @@ TEST_CASE("Name, version, author and units of a library must stand", "[plugin]")
   CHECK_THAT(reason_when([](Library& library) { library.name = ""; }), Contains("no name"));
   CHECK_THAT(reason_when([](Library& library) { library.version = nullptr; }), Contains("no version"));
   CHECK_THAT(reason_when([](Library& library) { library.author = nullptr; }), Contains("no author"));
+  CHECK_THAT(reason_when([](Library& library) { library.name = "two\nlines"; }),
+             Contains("a name with control"));
+  CHECK_THAT(reason_when([](Library& library) { library.author = "\xe9mile"; }), Contains("no UTF-8"));
   CHECK_THAT(reason_when([](Library& library) { library.units = nullptr; }), Contains("unit system ''"));
   CHECK_THAT(reason_when([](Library& library) { library.component_count = 0; }), Contains("no components"));
   CHECK_THAT(reason_when([](Library& library) { library.components = nullptr; }), Contains("no components"));
@@ -68,6 +71,8 @@ TEST_CASE("A component that lacks a name, sentence, constructor or table is refu
   CHECK_THAT(spoilt([](Component& c) { c.name = "roles"; }),
              Contains("'roles'") && Contains("wanted another"));
   CHECK_THAT(spoilt([](Component& c) { c.sentence = nullptr; }), Contains("no sentence"));
+  CHECK_THAT(spoilt([](Component& c) { c.sentence = ""; }), Contains("no sentence"));
+  CHECK_THAT(spoilt([](Component& c) { c.sentence = "caf\xe9"; }), Contains("no UTF-8"));
   CHECK_THAT(spoilt([](Component& c) { c.create = nullptr; }), Contains("no `create`"));
   CHECK_THAT(spoilt([](Component& c) { c.destroy = nullptr; }), Contains("no `destroy`"));
   CHECK_THAT(spoilt([](Component& c) { c.kind = static_cast<ComponentKind>(9); }), Contains("the kind 9"));
@@ -93,6 +98,10 @@ TEST_CASE("Parameter tables are checked row by row", "[plugin]") {
   CHECK_THAT(with({number(nullptr, "m", 0, 0, 1, ".")}), Contains("parameter without a key"));
   CHECK_THAT(with({number("a/b", "m", 0, 0, 1, ".")}), Contains("other characters"));
   CHECK_THAT(with({number("a", nullptr, 0, 0, 1, ".")}), Contains("no unit"));
+  CHECK_THAT(with({number("a", "", 0, 0, 1, ".")}), Contains("no unit"));
+  CHECK_THAT(with({number("a", "m", 0, 0, 1, "")}), Contains("no sentence"));
+  CHECK_THAT(with({number("a", "m", 0, 0, 1, "\x1b[2J")}), Contains("control characters"));
+  CHECK_THAT(with({number("a", "\xb0", 0, 0, 1, ".")}), Contains("no UTF-8"));
   CHECK_THAT(with({number("a", "m", 2, 0, 1, ".")}), Contains("default 2 outside its range [0, 1]"));
   CHECK_THAT(with({number("a", "m", 0, 1, 0, ".")}), Contains("range [1, 0]"));
   CHECK_THAT(with({number("a", "m", 0, required, 0, ".")}), Contains("the range [nan, 0]"));
