@@ -7,6 +7,8 @@
 #include "running.hpp"
 #include "scene_options.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace talus {

@@ -1,5 +1,7 @@
 #include "scene_options.hpp"
 
+#include "files/input_error.hpp"
+
 #include "files/whole_file.hpp"
 #include "terminal.hpp"
 

@@ -18,9 +18,9 @@ struct NumberedSurface {
 /// name.
 std::vector<NumberedSurface> number_surfaces(Reading& reading, const std::set<std::string>& single);
 
-/// [class * class_count + class] whether two bodies, one of which moves, can meet with these classes, or one
-/// body with itself: with its cuts, and with all of its boundary where it has "self_contact". `apart`: also
-/// with the outlines of fragments into which its discontinuities may cut it, which its cover decides.
+/// [class * surfaces.size() + class] whether two bodies, one of which moves, can meet with these classes, or
+/// one body with itself: with its cuts, and with all of its boundary where it has "self_contact". `apart`:
+/// also with the outlines of fragments into which its discontinuities may cut it, which its cover decides.
 std::vector<bool> meetings(const Scene& scene, bool apart = false);
 
 }  // namespace talus

@@ -61,14 +61,13 @@ void measure(benchmark::State& state, const Program& program, int threads) {
 void register_whole_programs() {
   const std::string scenes = TALUS_SCENES, rigid = R"(--set '/cover/model=rigid')",
                     sleep = R"(--set '/sleep={}')";
-  std::vector<Program> programs{
+  const std::vector<Program> programs{
       {"brick_wall/411/block", scenes + "/brick_wall.json", "", 1},
       {"brick_wall/411/rigid", scenes + "/brick_wall.json", rigid, 1},
       {"brick_wall/411/block/sleep", scenes + "/brick_wall.json", sleep, 1},
       {"brick_wall/411/rigid/sleep", scenes + "/brick_wall.json", rigid + " " + sleep, 1},
+      {"vaiont", scenes + "/vaiont.json", "", 35},
   };
-  const std::string vaiont = scenes + "/vaiont.json";
-  if (std::filesystem::exists(vaiont)) programs.push_back({"vaiont", vaiont, "", 35});
   for (const Program& program : programs) {
     for (const int threads : {1, 2}) {
       benchmark::RegisterBenchmark(
