@@ -21,16 +21,18 @@ struct CornerContact {
   double depth;               ///< m, behind the side; negative across an intact bond
   double lever;               ///< foot of the vertex along the side, 0 to 1 on it
   double tributary;           ///< m, length of boundary whose load the vertex carries
-  double in_corner;           ///< m, that length where it shares a reflex corner
-  double slack;               ///< m, how far past the end of the side the vertex may be and still stand on it
-  double share;               ///< of its spring: half where two corners meet on each other's edges, see also
-                              ///< `share_in_corner`; else 1
-  bool meets_corner;          ///< two corners meet, and each stands on the other's edge
-  bool past_cut;              ///< past the cut at the end of the side, where its piece cannot see it any more
-  bool stands;                ///< on this side, not only on others that the same vertex was found at
-  bool idle;                  ///< neither of the sides of its body that meet in it faces the side
-  bool bonded;                ///< by what has not broken yet
-  Point before, after;        ///< tangents of the edges that meet in the vertex
+  double filled;        ///< share of half of force times depth that its spring holds: less than 1 where the
+                        ///< tributary grows with the depth
+  double in_corner;     ///< m, that length where it shares a reflex corner
+  double slack;         ///< m, how far past the end of the side the vertex may be and still stand on it
+  double share;         ///< of its spring: half where two corners meet on each other's edges, see also
+                        ///< `share_in_corner`; else 1
+  bool meets_corner;    ///< two corners meet, and each stands on the other's edge
+  bool past_cut;        ///< past the cut at the end of the side, where its piece cannot see it any more
+  bool stands;          ///< on this side, not only on others that the same vertex was found at
+  bool idle;            ///< neither of the sides of its body that meet in it faces the side
+  bool bonded;          ///< by what has not broken yet
+  Point before, after;  ///< tangents of the edges that meet in the vertex
 };
 
 /// Whether an edge is no more than a corner cut off, or rounding, between two others. The end of a thin plate
@@ -60,6 +62,19 @@ inline constexpr double flush = 0.01;
 
 /// Share of a side of a body of many elements up to which its ends are near by another side.
 inline constexpr double near_by = 0.1;
+
+/// By how much longer the way out through a side counts that the vertex's own edges go into, per sine of the
+/// angle. The entrance condition of DDA has it that they may not; but where a soft block leans, they do a
+/// little. With 4 the flank of an equal body is never nearer than the face, whatever the angle between.
+inline constexpr double entered = 4;
+
+/// Sine of the angle from which on an edge does not lie flat on a side, 10 degrees.
+inline constexpr double leaning = 0.17;
+
+/// By how much the tributary of a vertex that lies flat on a side grows with its depth, m per m, as far as
+/// `least_tributary`. Deep corners bear as those that lean do; one that slides over a joint hits the flank
+/// behind that softly.
+inline constexpr double grows = 10;
 
 /// m, up to how deep behind a side the end of another counts as on it, though a flank is nearer. Lattices cut
 /// off sides shorter than any overlap, so that of the side below counts as well.
@@ -97,7 +112,7 @@ class CornerFinder {
         if (!vertex) continue;
         const std::uint32_t key = 2 * vertex->name + body;
         stand(pieces, own, other, *vertex, bond_reach(key),
-              {entry, body, v, key, 0, 0, 0, 0, 0, 0, 1, false, false, true, false, false, vertex->before,
+              {entry, body, v, key, 0, 0, 0, 0, 1, 0, 0, 1, false, false, true, false, false, vertex->before,
                vertex->after},
               found);
       }
@@ -149,11 +164,12 @@ class CornerFinder {
                                            const Piece& other, const Vertex& vertex, BondReach bond_reach,
                                            CornerContact contact, std::vector<CornerContact>& found) {
     const std::uint32_t v = contact.vertex;
-    const Point at = own.at(v), outward = outward_of(own, vertex, v);
+    const Edges edges = edges_at(own, vertex, v);
+    const Point at = own.at(v), outward = edges.before - edges.after;
     // A strip knows one side of its corner. At right angles to what it stands on, rounding would have it
     // stand on the far side of the other body instead.
     const double looks_away = own.is_strip() ? upright : 0;
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity(), least = nearest;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
       const double depth = other.depth(k, at);
@@ -161,12 +177,14 @@ class CornerFinder {
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
       const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
+      const double weighed = distance * (own.is_strip() ? 1 : 1 + entered * edges.into(other.normal(k)));
       const bool idle = own.is_strip() && is_idle(own, v, other.normal(k));
       const bool beside = idle != contact.idle && std::isfinite(nearest) &&
                           (idle ? nearest : distance) <= near_by * own.length(0);
-      if (beside ? idle : distance >= nearest) continue;
+      if (beside ? idle : weighed >= least) continue;
       contact.idle = idle;
       nearest = distance;
+      least = weighed;
       contact.side = k;
       contact.depth = depth;
     }
@@ -312,15 +330,24 @@ class CornerFinder {
     });
   }
 
-  /// Where the body points at a vertex. A short edge beside it says nothing of that.
-  static Point outward_of(const Piece& own, const Vertex& vertex, std::uint32_t v) {
-    if (own.is_strip() || vertex.divided) return vertex.outward();
+  /// Tangents of the edges that meet in a vertex; of a short one what lies beyond it, for it says nothing of
+  /// where the body is.
+  struct Edges {
+    Point before, after;
+
+    /// How far either of them goes into a side: the sine of the angle, 0 where both stay before it.
+    double into(Point normal) const { return std::max({0.0, dot(before, normal), -dot(after, normal)}); }
+  };
+
+  static Edges edges_at(const Piece& own, const Vertex& vertex, std::uint32_t v) {
+    Edges edges{vertex.before, vertex.after};
+    if (own.is_strip() || vertex.divided) return edges;
     const std::uint32_t before = own.previous(v), two_before = own.previous(before), after = own.next(v);
     if (is_short(own, before) && own.real(two_before) && !is_short(own, two_before))
-      return own.tangent(two_before) - vertex.after;
-    if (is_short(own, v) && own.real(after) && !is_short(own, after))
-      return vertex.before - own.tangent(after);
-    return vertex.outward();
+      edges.before = own.tangent(two_before);
+    else if (is_short(own, v) && own.real(after) && !is_short(own, after))
+      edges.after = own.tangent(after);
+    return edges;
   }
 
   /// Of the pieces that share a vertex the one with the edge that lies flatter on a side has the contact.
@@ -376,6 +403,7 @@ class CornerFinder {
       const Piece &own = geometry.piece[body], &other = geometry.piece[1 - body];
       const std::uint32_t edge = flatter_edge(own, contact->vertex, other.tangent(contact->side));
       contact->tributary = least_tributary(own.length(edge), other.length(contact->side));
+      contact->filled = 1;
     }
   }
 
@@ -401,7 +429,7 @@ class CornerFinder {
 
   /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
   /// of a flat contact carry α_N L together.
-  static double tributary_length(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  static double tributary_length(std::span<const PiecePairGeometry> pieces, CornerContact& contact) {
     const std::uint32_t body = contact.vertex_body, side = contact.side;
     const Piece &own = pieces[contact.entry].piece[body], &other = pieces[contact.entry].piece[1 - body];
     const Point along = other.tangent(side);
@@ -414,7 +442,19 @@ class CornerFinder {
     const double shadow = std::min(high, std::max(start, end)) - std::max(low, std::min(start, end));
     // A side that stands upright on the other, at the end of a base, carries nothing there.
     if (own.is_strip()) return std::max(shadow, 0.0) / 2;
-    return std::max(shadow / 2, least_tributary(own_high - own_low, high - low));
+    // An edge that lies flat on the side bears what faces it: past the end of the side, or over a joint to
+    // the next, that is next to nothing. One that leans bears the least at any depth.
+    const double least = least_tributary(own_high - own_low, high - low),
+                 leans = std::abs(dot(own.tangent(edge), other.normal(side))) / leaning;
+    const double faces = std::max(shadow / 2, least * std::min(leans, 1.0));
+    if (!(contact.depth > 0 && grows * contact.depth > faces && faces < least)) return faces;
+    // With a length t that grows so its spring holds ∫ t d, not t d²/2.
+    const double d = contact.depth, from = faces / grows, to = std::min(d, least / grows);
+    const double held = faces * from * from / 2 + grows * (to * to * to - from * from * from) / 3 +
+                        least * (d * d - to * to) / 2;
+    const double length = grows * to;
+    contact.filled = held / (length * d * d / 2);
+    return length;
   }
 
   /// A twentieth of the shorter edge: for a corner that meets a corner, or comes alone.

@@ -152,9 +152,8 @@ class VertexEdge final : public ContactModel {
     }
     const std::span<const PiecePairGeometry> all(work.pieces.data(), entries);
     for (std::uint32_t e = 0; e < entries; ++e) {
-      const double sides[2] = {longest_side(all[e].piece[0]), longest_side(all[e].piece[1])};
-      const double touching = batch.bonds_form ? 1e-12 * std::min(sides[0], sides[1]) : 0.0;
-      const double longest = std::max(sides[0], sides[1]),
+      const double touching = batch.bonds_form ? touching_gap(all[e]) : 0.0;
+      const double longest = std::max(longest_side(all[e].piece[0]), longest_side(all[e].piece[1])),
                    bonded = std::max(direct_ ? work.bonds.reach * longest : work.bonds.reach,
                                      work.bonds.cohesive ? rounding_gap * longest : 0);
       const double seen = bonded > touching ? bonded + batch.dt * fastest_apart(all[e]) : touching;
@@ -184,6 +183,11 @@ class VertexEdge final : public ContactModel {
         fastest = std::max(fastest, length(piece.velocity(i) - of));
     }
     return 2 * fastest;
+  }
+
+  /// m, a gap across which bonds form, since rounding makes such where bodies are drawn flush.
+  static double touching_gap(const PiecePairGeometry& pair) {
+    return rounding_gap * std::max(longest_side(pair.piece[0]), longest_side(pair.piece[1]));
   }
 
   static double longest_side(const Piece& piece) {
@@ -238,7 +242,7 @@ class VertexEdge final : public ContactModel {
       return own;
     }
     // A vertex that is bonded to one face of a corner is not to the other across a gap.
-    const bool bonds = batch.bonds_form && contact.depth > -rounding_gap * contact.tributary;
+    const bool bonds = batch.bonds_form && contact.depth >= -touching_gap(work.pieces[contact.entry]);
     SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0};
     if (contact.share < 1 && !contact.meets_corner) {
       if (const SpringHistory* old = find_old(work.old, contact.key)) {
@@ -304,7 +308,8 @@ class VertexEdge final : public ContactModel {
 
     history.elastic = force.tangential;
     history.applied = contact.share * force.tangential;
-    const double stored_normal = contact.share * force.normal * contact.depth / 2;
+    const double stored_normal =
+        contact.share * (direct_ ? 1 : contact.filled) * force.normal * contact.depth / 2;
     const double stored_tangential =
         spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
                               : 0;

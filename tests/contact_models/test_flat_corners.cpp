@@ -1,0 +1,75 @@
+// Corners of faces that lie flat on each other under `vertex_edge`: over corners, over joints, at flanks.
+#include "contact_models/block_on_base.hpp"
+#include "simulation/working_scene.hpp"
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace talus;
+using namespace talus::bench;
+
+TEST_CASE("Obtuse corners over obtuse corners stand on the faces, not on the flanks behind them",
+          "[laws][vertex_edge]") {
+  // Two faces of a metre, flush, whose flanks rise and fall by this angle; a regular hexagon has 60 degrees.
+  for (const double degrees : {20.0, 30.0, 45.0, 60.0, 80.0, 89.0}) {
+    INFO(degrees);
+    const double angle = degrees / 180 * 3.14159265358979, out = std::cos(angle), up = std::sin(angle);
+    LawBench bench("vertex_edge", undamped_interface());
+    constexpr double depth = 1e-4;
+    bench.bodies = {
+        held({{-0.5 - out, -up}, {-0.5, -2}, {0.5, -2}, {0.5 + out, -up}, {0.5, 0}, {-0.5, 0}}),
+        held({{-0.5, -depth}, {0.5, -depth}, {0.5 + out, up}, {0.5, 2}, {-0.5, 2}, {-0.5 - out, up}})};
+    const Evaluation found = bench.step();
+    CHECK(found.on(1).y == Approx(1e9 * depth).epsilon(1e-9));
+    CHECK(std::abs(found.on(1).x) < 1e-6 * found.on(1).y);
+    CHECK(found.pairs[0].penetration == Approx(depth).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("A block slides over a joint between two bodies as over one", "[laws][vertex_edge]") {
+  // Its corner is deep behind the hidden flank of the second, too, and nearer to that for as far as it is
+  // deep.
+  const double damping = GENERATE(0.0, 0.3);
+  const std::string cover = GENERATE("rigid", "block");
+  INFO(damping << ", " << cover);
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.cover = cover;
+  text.interface = fmt::format(R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 0,
+                                  "normal_damping": {0}, "tangential_damping": {0})",
+                               damping);
+  text.bodies = box("first", 0, -1, 1.5, 0, R"("fixed": true)") + "," +
+                box("second", 1.5, -1, 3, 0, R"("fixed": true)") + "," +
+                box("block", 0.4995, 0, 1.4995, 0.5, R"("velocity": [0.1, 0])");
+  text.gravity = "[0, -10]";
+  text.rest = R"("settle": {"duration": 0.2, "damping": 200},)";
+  text.time = R"({"end": 0.1})";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  const double rest = simulation.body_motion(2).position.y;
+  double lifted = 0;
+  while (simulation.advance())
+    lifted = std::max(lifted, std::abs(simulation.body_motion(2).position.y - rest));
+  const double sunk = 0.25 - rest;
+  CHECK(simulation.body_motion(2).velocity.x == Approx(0.1).epsilon(1e-2));
+  CHECK(lifted < 0.005 * sunk);
+  CHECK(simulation.body_motion(2).position.x > 1.008);
+}
+
+TEST_CASE("What is drawn flush is bonded, whatever rounding makes of it", "[laws][vertex_edge][bonds]") {
+  const Values bonded = with(undamped_interface(), {{"cohesion", 2e5}, {"tensile_strength", 1e5}});
+  const auto holds = [&](double gap) {
+    LawBench bench("vertex_edge", bonded);
+    bench.bodies = block_on_base(-gap);
+    bench.bonds_form = true;
+    bench.step();
+    bench.bonds_form = false;
+    return -shifted(bench, {0, 5e-5}).on(1).y;
+  };
+  for (const double gap : {0.0, 1e-12, 1e-10, 9e-10}) CHECK(holds(gap) == Approx(5e4).epsilon(1e-4));
+  CHECK(holds(1e-8) == 0);
+}
