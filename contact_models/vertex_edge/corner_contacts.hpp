@@ -63,18 +63,20 @@ inline constexpr double flush = 0.01;
 /// Share of a side of a body of many elements up to which its ends are near by another side.
 inline constexpr double near_by = 0.1;
 
-/// By how much longer the way out through a side counts that the vertex's own edges go into, per sine of the
-/// angle. The entrance condition of DDA has it that they may not; but where a soft block leans, they do a
-/// little. With 4 the flank of an equal body is never nearer than the face, whatever the angle between.
-inline constexpr double entered = 4;
-
-/// Sine of the angle from which on an edge does not lie flat on a side, 10 degrees.
+/// Sine of the angle from which on an edge does not lie flat on a side, and from which on it goes into it: 10
+/// degrees.
 inline constexpr double leaning = 0.17;
+
+/// Entrance condition of DDA: a vertex stands on no side that its own edges go into, if there is another. For
+/// those no deeper than this share of the shorter edge, as at rest, it holds as it stands; deeper, as in
+/// hits, it counts by how much they go in, as it does for less than `leaning`: the side counts as further by
+/// this share per sine of the angle. The flank of an equal body is then never nearer than the face.
+inline constexpr double resting = 0.003, further = 4;
 
 /// By how much the tributary of a vertex that lies flat on a side grows with its depth, m per m, as far as
 /// `least_tributary`. Deep corners bear as those that lean do; one that slides over a joint hits the flank
 /// behind that softly.
-inline constexpr double grows = 10;
+inline constexpr double grows = 20;
 
 /// m, up to how deep behind a side the end of another counts as on it, though a flank is nearer. Lattices cut
 /// off sides shorter than any overlap, so that of the side below counts as well.
@@ -170,6 +172,7 @@ class CornerFinder {
     // stand on the far side of the other body instead.
     const double looks_away = own.is_strip() ? upright : 0;
     double nearest = std::numeric_limits<double>::infinity(), least = nearest;
+    bool entered = false;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
       if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
       const double depth = other.depth(k, at);
@@ -177,14 +180,19 @@ class CornerFinder {
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
       const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
-      const double weighed = distance * (own.is_strip() ? 1 : 1 + entered * edges.into(other.normal(k)));
+      const double into = own.is_strip() ? 0 : edges.into(other.normal(k)),
+                   weighed = distance * (1 + further * into);
       const bool idle = own.is_strip() && is_idle(own, v, other.normal(k));
       const bool beside = idle != contact.idle && std::isfinite(nearest) &&
                           (idle ? nearest : distance) <= near_by * own.length(0);
-      if (beside ? idle : weighed >= least) continue;
+      const bool enters = into > leaning,
+                 in_reach = (enters ? nearest : distance) <= resting * vertex.shorter;
+      const bool ranks = enters != entered && in_reach && std::isfinite(nearest);
+      if (beside ? idle : ranks ? enters : weighed >= least) continue;  // what edges go into comes last
       contact.idle = idle;
       nearest = distance;
       least = weighed;
+      entered = enters;
       contact.side = k;
       contact.depth = depth;
     }
