@@ -11,6 +11,7 @@
 #include "text/shell_word.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -107,6 +108,18 @@ Scene scene_of(const Checkpoint& checkpoint, Registry& registry, bool allow_plug
   return scene;
 }
 
+/// Its folder, or that of one of its runs.
+bool is_of_comparison(const std::filesystem::path& given) {
+  if (!std::filesystem::is_directory(given)) return false;
+  if (comparison_record_in(given)) return true;
+  const std::filesystem::path folder = std::filesystem::canonical(given);
+  const auto comparison = comparison_record_in(folder.parent_path());
+  return comparison && std::ranges::any_of(comparison->at("runs"), [&](const auto& run) {
+           return std::filesystem::path(run.at("folder").template get<std::string>()).filename() ==
+                  folder.filename();
+         });
+}
+
 }  // namespace
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& given) {
@@ -118,8 +131,7 @@ std::filesystem::path checkpoint_to_go_on_from(const std::filesystem::path& give
   if (!std::filesystem::exists(file) && holds_finished_run(given))
     throw InputError(
         fmt::format("the run in '{}' is at its end, so nothing is kept to go on with", given.string()));
-  if (!std::filesystem::exists(file) &&
-      (comparison_record_in(given) || comparison_record_in(given.parent_path())))
+  if (!std::filesystem::exists(file) && is_of_comparison(given))
     throw InputError(
         fmt::format("'{}' is of a comparison, which keeps no checkpoint: it begins anew with the words that "
                     "began it",

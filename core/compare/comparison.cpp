@@ -211,6 +211,9 @@ void check_order(const ComparisonOrder& order) {
   };
   for (std::size_t run = 1; run < order.scenes.size(); ++run) {
     const std::vector<std::string> own = monitor_columns(order.scenes[run]);
+    if (own.empty())
+      throw InputError(fmt::format("with '{}' the scene has no monitors, so there is nothing to compare",
+                                   order.variation.values[run]));
     if (!shares_some(own))
       throw InputError(fmt::format("'{}' and '{}' have no column in common to be compared by: '{}' and '{}'",
                                    order.variation.values[0], order.variation.values[run],

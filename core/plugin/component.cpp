@@ -59,6 +59,7 @@ std::optional<std::string> reason_in_choices(const Parameter& parameter) {
   if (empty(parameter.choices)) {
     return "found a choice without choices, wanted 'first|second|...'; list them and rebuild the library";
   }
+  if (!printable(parameter.choices)) return unfit_text;
   std::set<std::string_view> seen;
   std::string_view rest = parameter.choices;
   while (true) {

@@ -60,7 +60,7 @@ std::optional<std::string> reason_in_identity(const Library& library) {
     }
     if (!printable(text)) {
       return fmt::format(
-          "found a {} with control characters, or that is no UTF-8, wanted one line of UTF-8; correct "
+          "found the {} to hold control characters or to be no UTF-8, wanted one line of UTF-8; correct "
           "talus_library.{} and rebuild it",
           member, member);
     }

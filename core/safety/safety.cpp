@@ -401,7 +401,8 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
     safety.trouble = fmt::format(
         "runs with 1 to {:.3g} times the strength are all stopped, which says nothing of safety{}: {}",
         1 / safety.runs.back().factor,
-        scene.settle ? "; they start from what the scene settles to with its own strength" : "",
+        scene.settle && !may_bond(scene) ? "; they start from what the scene settles to with its own strength"
+                                         : "",
         safety.runs.back().trouble);
   }
   return safety;

@@ -1,8 +1,8 @@
 #include "contact/thin_ground.hpp"
+#include "geometry/place.hpp"
 #include "geometry/polygon.hpp"
 #include "scene/tables.hpp"
 #include "simulation/state.hpp"
-#include "text/place.hpp"
 
 #include <fmt/format.h>
 
@@ -210,16 +210,15 @@ void Simulation::State::check_balance() {
                         place(contact_totals.deepest_a), place(contact_totals.deepest_b))
           : "";
   const Component* law = scene.contact.component == nullptr ? nullptr : scene.contact.component->component;
-  const bool no_potential = law != nullptr && (law->traits & trait::has_potential) == 0;
+  const bool no_potential = law != nullptr && (law->traits & trait::has_potential) == 0,
+             small_step = plan.dt < hardly_the_step * critical.dt;
+  const std::string cause =
+      no_potential            ? fmt::format("'{}', which has no potential, makes or loses it", law->name)
+      : plan.dt < critical.dt ? "`talus check-plugin` tells whether law and materials book what they take"
+                              : "";
   const std::string otherwise =
-      no_potential
-          ? fmt::format("; where that changes nothing, '{}', which has no potential, makes or loses it",
-                        law->name)
-      : plan.dt < critical.dt
-          ? "; where that changes nothing, `talus check-plugin` tells whether law and materials book "
-            "what they take"
-          : "";
-  const char* const advice = plan.dt < hardly_the_step * critical.dt ? "hardly the step"
+      cause.empty() ? "" : fmt::format("; {}{}", small_step ? "" : "where that changes nothing, ", cause);
+  const char* const advice = small_step       ? "hardly the step"
                              : law != nullptr ? "take a smaller one, or damp the contacts"
                                               : "take a smaller one";
   throw NumericalTrouble(

@@ -44,7 +44,7 @@ TEST_CASE("Name, version, author and units of a library must stand", "[plugin]")
   CHECK_THAT(reason_when([](Library& library) { library.version = nullptr; }), Contains("no version"));
   CHECK_THAT(reason_when([](Library& library) { library.author = nullptr; }), Contains("no author"));
   CHECK_THAT(reason_when([](Library& library) { library.name = "two\nlines"; }),
-             Contains("a name with control"));
+             Contains("the name to hold control"));
   CHECK_THAT(reason_when([](Library& library) { library.author = "\xe9mile"; }), Contains("no UTF-8"));
   CHECK_THAT(reason_when([](Library& library) { library.units = nullptr; }), Contains("unit system ''"));
   CHECK_THAT(reason_when([](Library& library) { library.component_count = 0; }), Contains("no components"));
@@ -106,6 +106,7 @@ TEST_CASE("Parameter tables are checked row by row", "[plugin]") {
   CHECK_THAT(with({number("a", "m", 0, 1, 0, ".")}), Contains("range [1, 0]"));
   CHECK_THAT(with({number("a", "m", 0, required, 0, ".")}), Contains("the range [nan, 0]"));
   CHECK_THAT(with({choice("a", nullptr, 0, ".")}), Contains("choice without choices"));
+  CHECK_THAT(with({choice("a", "\xff|b", 0, ".")}), Contains("no UTF-8"));
   CHECK_THAT(with({choice("a", "one||two", 0, ".")}), Contains("'one||two'"));
   CHECK_THAT(with({choice("a", "one|one", 0, ".")}), Contains("'one|one'"));
   CHECK_THAT(with({choice("a", "one|two", 2, ".")}), Contains("default position 2, wanted 0 to 1"));

@@ -48,10 +48,9 @@ function headRow(words) {
 function toleranceTable() {
   if (!comparison || !comparison.tolerances.length) return;
   byId('tolerances').hidden = false;
-  const missed = comparison.tolerances.filter(({verdict}) => verdict !== 'held').length;
-  byId('tolerances-legend').textContent = missed
-    ? `${missed} of ${comparison.tolerances.length} not held`
-    : `all ${comparison.tolerances.length} held`;
+  const verdicts = new Map();
+  for (const {verdict} of comparison.tolerances) verdicts.set(verdict, (verdicts.get(verdict) || 0) + 1);
+  byId('tolerances-legend').textContent = [...verdicts].map(([verdict, count]) => `${count} ${verdict}`).join(', ');
   const table = byId('tolerance-table');
   table.append(headRow(['', 'run', 'against', 'measure', 'found', 'allowed', '']));
   for (const each of comparison.tolerances)
