@@ -15,8 +15,10 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 
 namespace talus {
@@ -84,6 +86,23 @@ void open_standard_streams() {
   }
 }
 
+/// What is thrown out of a function that promises not to throw ends the program at once. Libraries are asked
+/// through such functions alone, so it is theirs as a rule.
+[[noreturn]] void abort_in_words() {
+  std::string thrown = "something that is no std::exception";
+  try {
+    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+  } catch (const std::exception& problem) {
+    thrown = problem.what();
+  } catch (...) {
+  }
+  tell(fmt::format(
+      "error: '{}' was thrown where nothing may be: most likely by a contact law, a material or a cover, "
+      "whose functions are noexcept; `talus check-plugin` tells which; what was written so far stays\n",
+      thrown));
+  std::abort();
+}
+
 int guarded(const Words& words) {
   open_standard_streams();
   const Log log = log_of_words(words);
@@ -120,6 +139,7 @@ int guarded(const Words& words) {
 }  // namespace talus
 
 int main(int count, char** words) {
+  std::set_terminate(talus::abort_in_words);
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of the shell is then an error in words
   return talus::guarded(talus::Words(words + 1, words + count));
 }

@@ -40,6 +40,15 @@ TEST_CASE("A law that says contacts hold less energy than none stops the run and
                            Contains("mend the law or choose another"));
 }
 
+TEST_CASE("What a law throws where it may not is told before the program is aborted", "[contact]") {
+  const Scratch scratch;
+  scratch.write("scene.json", small_scene());
+  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
+                                                  "--set", "/contact/model=throws"});
+  CHECK(call.code == 134);
+  CHECK_THAT(call.err, Contains("'no such pair' was thrown where nothing may be"));
+}
+
 TEST_CASE("A law that prepares an interface by what is no number is refused with the parameter",
           "[contact]") {
   const Scratch scratch;

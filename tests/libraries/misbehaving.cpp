@@ -2,10 +2,25 @@
 #include "descriptor.hpp"
 
 #include <limits>
+#include <stdexcept>
 
 namespace {
 
-enum class Slip { nan_load, nan_report, nan_contact, nan_dashpot, past_the_end, one_sided, couple, debt };
+enum class Slip {
+  nan_load,
+  nan_report,
+  nan_contact,
+  nan_dashpot,
+  past_the_end,
+  one_sided,
+  couple,
+  debt,
+  throws
+};
+
+[[gnu::noinline]] void throw_up() {
+  throw std::runtime_error("no such pair");
+}
 
 /// Says of every pair that it touches, without a load but for one slip.
 template <Slip slip>
@@ -15,6 +30,7 @@ class Misbehaving : public SilentLaw {
 
   void evaluate(const talus::ContactBatch& batch, const talus::ContactLoads& loads) const noexcept override {
     constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    if (slip == Slip::throws) throw_up();
     for (std::uint32_t k = 0; k < batch.active_count; ++k) {
       const talus::BodyPair& pair = batch.pairs[batch.active[k]];
       talus::PairReport& report = loads.pairs[batch.active[k]];
@@ -65,8 +81,9 @@ constexpr talus::Component components[] = {law<Misbehaving<Slip::nan_contact>>("
                                            law<Misbehaving<Slip::past_the_end>>("past_the_end"),
                                            law<Misbehaving<Slip::one_sided>>("one_sided"),
                                            law<Misbehaving<Slip::couple>>("couple"),
-                                           law<Misbehaving<Slip::debt>>("debt")};
+                                           law<Misbehaving<Slip::debt>>("debt"),
+                                           law<Misbehaving<Slip::throws>>("throws")};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 9);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 10);
