@@ -3,7 +3,7 @@
 #include "blocks/geos.hpp"
 #include "geometry/box.hpp"
 #include "geometry/polygon.hpp"
-#include "text/place.hpp"
+#include "geometry/place.hpp"
 
 #include <fmt/format.h>
 

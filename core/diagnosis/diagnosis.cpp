@@ -2,7 +2,7 @@
 
 #include "scene/tables.hpp"
 #include "simulation/time_step.hpp"
-#include "text/place.hpp"
+#include "geometry/place.hpp"
 
 #include <talus/library.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "geometry/loop.hpp"
 
 #include <cstdint>
 #include <span>

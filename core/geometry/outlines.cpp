@@ -1,4 +1,4 @@
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 
 #include <fmt/format.h>
 
@@ -20,10 +20,6 @@ int side(Vec2 o, Vec2 a, Vec2 b) {
   return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
-bool same(Vec2 a, Vec2 b) {
-  return a.x == b.x && a.y == b.y;
-}
-
 bool in_box(Vec2 a, Vec2 b, Vec2 p) {
   return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
          p.y <= std::max(a.y, b.y);
@@ -36,20 +32,20 @@ bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
          (a_side == 0 && in_box(c, d, a)) || (b_side == 0 && in_box(c, d, b));
 }
 
-struct Edge {
+struct OutlineEdge {
   std::size_t loop, index;
   Vec2 from, to;
   double left() const { return std::min(from.x, to.x); }
   double right() const { return std::max(from.x, to.x); }
 };
 
-std::string name_of(const Edge& edge, bool has_holes) {
+std::string name_of(const OutlineEdge& edge, bool has_holes) {
   if (edge.loop != 0) return fmt::format("edge {} of hole {}", edge.index, edge.loop - 1);
   return fmt::format("edge {}{}", edge.index, has_holes ? " of the outer boundary" : "");
 }
 
-std::vector<Edge> edges_of(const Loops& loops) {
-  std::vector<Edge> edges;
+std::vector<OutlineEdge> edges_of(const Loops& loops) {
+  std::vector<OutlineEdge> edges;
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
     const Ring& ring = loops[loop];
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -102,7 +98,7 @@ void faults_of_ring(std::size_t loop, const Ring& ring, std::vector<ShapeFault>&
   }
 }
 
-bool neighbours(const Edge& a, const Edge& b, const Loops& loops) {
+bool neighbours(const OutlineEdge& a, const OutlineEdge& b, const Loops& loops) {
   if (a.loop != b.loop) return false;
   const std::size_t count = loops[a.loop].size();
   return (a.index + 1) % count == b.index || (b.index + 1) % count == a.index;
@@ -110,17 +106,17 @@ bool neighbours(const Edge& a, const Edge& b, const Loops& loops) {
 
 /// The first two edges that meet without being neighbours.
 std::optional<ShapeFault> crossing_fault(const Loops& loops) {
-  std::vector<Edge> edges = edges_of(loops);
+  std::vector<OutlineEdge> edges = edges_of(loops);
   std::stable_sort(edges.begin(), edges.end(),
-                   [](const Edge& a, const Edge& b) { return a.left() < b.left(); });
-  std::vector<const Edge*> active;
-  for (const Edge& edge : edges) {
-    std::erase_if(active, [&](const Edge* other) { return other->right() < edge.left(); });
-    for (const Edge* other : active) {
+                   [](const OutlineEdge& a, const OutlineEdge& b) { return a.left() < b.left(); });
+  std::vector<const OutlineEdge*> active;
+  for (const OutlineEdge& edge : edges) {
+    std::erase_if(active, [&](const OutlineEdge* other) { return other->right() < edge.left(); });
+    for (const OutlineEdge* other : active) {
       if (neighbours(edge, *other, loops) || !segments_meet(edge.from, edge.to, other->from, other->to))
         continue;
       const bool swap = std::pair(edge.loop, edge.index) < std::pair(other->loop, other->index);
-      const Edge &first = swap ? edge : *other, &second = swap ? *other : edge;
+      const OutlineEdge &first = swap ? edge : *other, &second = swap ? *other : edge;
       const bool has_holes = loops.size() > 1;
       const std::string edges_named = name_of(first, has_holes) + " and " + name_of(second, has_holes);
       const char* consequence = first.loop == second.loop ? ": the polygon intersects itself" : "";
@@ -190,7 +186,7 @@ std::vector<ShapeFault> shape_faults(const Loops& loops) {
 }
 
 bool contains(const Loops& loops, Vec2 point, double margin) {
-  for (const Edge& edge : edges_of(loops)) {
+  for (const OutlineEdge& edge : edges_of(loops)) {
     if (distance_from(point, edge.from, edge.to) <= margin) return true;
   }
   bool inside = false;

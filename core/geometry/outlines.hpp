@@ -1,7 +1,6 @@
 #pragma once
 
 #include "geometry/polygon.hpp"
-#include "scene/scene.hpp"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 
 #include "geometry/box.hpp"
 

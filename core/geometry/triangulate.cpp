@@ -1,4 +1,4 @@
-#include "output/triangulate.hpp"
+#include "geometry/triangulate.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,14 +8,10 @@ namespace talus {
 
 namespace {
 
-using Ring = std::vector<std::uint32_t>;
+using Corners = std::vector<std::uint32_t>;
 
 double turn(Vec2 a, Vec2 b, Vec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-bool same(Vec2 a, Vec2 b) {
-  return a.x == b.x && a.y == b.y;
 }
 
 /// Loops are joined to one ring by a bridge to each hole; then ears are cut off it.
@@ -23,7 +19,7 @@ class EarClipping {
  public:
   explicit EarClipping(const std::vector<std::vector<Vec2>>& loops) {
     for (const std::vector<Vec2>& loop : loops) {
-      Ring ring(loop.size());
+      Corners ring(loop.size());
       std::iota(ring.begin(), ring.end(), static_cast<std::uint32_t>(points_.size()));
       points_.insert(points_.end(), loop.begin(), loop.end());
       rings_.push_back(std::move(ring));
@@ -33,7 +29,7 @@ class EarClipping {
   std::vector<std::array<std::uint32_t, 3>> run() {
     // Holes from the right to the left: then nothing that is not yet joined hides the way to the ring.
     std::sort(rings_.begin() + 1, rings_.end(),
-              [this](const Ring& a, const Ring& b) { return rightmost(a) > rightmost(b); });
+              [this](const Corners& a, const Corners& b) { return rightmost(a) > rightmost(b); });
     while (rings_.size() > 1) join_hole();
     while (rings_[0].size() > 3) cut_ear();
     triangles_.push_back({rings_[0][0], rings_[0][1], rings_[0][2]});
@@ -41,16 +37,16 @@ class EarClipping {
   }
 
  private:
-  Vec2 at(const Ring& ring, std::size_t i) const { return points_[ring[i % ring.size()]]; }
+  Vec2 at(const Corners& ring, std::size_t i) const { return points_[ring[i % ring.size()]]; }
 
-  double rightmost(const Ring& ring) const {
+  double rightmost(const Corners& ring) const {
     double right = -std::numeric_limits<double>::infinity();
     for (const std::uint32_t corner : ring) right = std::max(right, points_[corner].x);
     return right;
   }
 
   bool crosses_an_edge(Vec2 from, Vec2 to) const {
-    for (const Ring& ring : rings_) {
+    for (const Corners& ring : rings_) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 a = at(ring, i), b = at(ring, i + 1);
         if (same(a, from) || same(a, to) || same(b, from) || same(b, to)) continue;
@@ -61,15 +57,15 @@ class EarClipping {
   }
 
   /// Whether `target` lies inside the angle of the ring at corner i.
-  bool inside_corner(const Ring& ring, std::size_t i, Vec2 target) const {
+  bool inside_corner(const Corners& ring, std::size_t i, Vec2 target) const {
     const Vec2 before = at(ring, i + ring.size() - 1), here = at(ring, i), after = at(ring, i + 1);
     const bool left_of_in = turn(before, here, target) > 0, left_of_out = turn(here, after, target) > 0;
     return turn(before, here, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
   }
 
   void join_hole() {
-    const Ring hole = rings_[1];
-    Ring& ring = rings_[0];
+    const Corners hole = rings_[1];
+    Corners& ring = rings_[0];
     std::size_t best_ring = 0, best_hole = 0;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -83,14 +79,14 @@ class EarClipping {
         }
       }
     }
-    Ring joined(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(best_ring) + 1);
+    Corners joined(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(best_ring) + 1);
     for (std::size_t j = 0; j <= hole.size(); ++j) joined.push_back(hole[(best_hole + j) % hole.size()]);
     joined.insert(joined.end(), ring.begin() + static_cast<std::ptrdiff_t>(best_ring), ring.end());
     ring = std::move(joined);
     rings_.erase(rings_.begin() + 1);
   }
 
-  bool is_ear(const Ring& ring, std::size_t i) const {
+  bool is_ear(const Corners& ring, std::size_t i) const {
     const Vec2 a = at(ring, i + ring.size() - 1), b = at(ring, i), c = at(ring, i + 1);
     if (!(turn(a, b, c) > 0)) return false;
     for (const std::uint32_t corner : ring) {
@@ -103,7 +99,7 @@ class EarClipping {
 
   /// Where rounding leaves no clean ear, the flattest corner goes: drawing goes on.
   void cut_ear() {
-    Ring& ring = rings_[0];
+    Corners& ring = rings_[0];
     std::size_t ear = ring.size();
     for (std::size_t i = 0; i < ring.size() && ear == ring.size(); ++i) {
       if (is_ear(ring, i)) ear = i;
@@ -125,7 +121,7 @@ class EarClipping {
   }
 
   std::vector<Vec2> points_;
-  std::vector<Ring> rings_;
+  std::vector<Corners> rings_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 

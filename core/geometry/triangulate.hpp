@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "geometry/vec2.hpp"
 
 #include <array>
 #include <cstdint>

@@ -25,6 +25,10 @@ inline double size_of(Vec2 p) {
   return std::sqrt(dot(p, p));
 }
 
+inline bool same(Vec2 p, Vec2 q) {
+  return p.x == q.x && p.y == q.y;
+}
+
 /// Of a point from a segment, which may be a point.
 inline double distance_from(Vec2 point, Vec2 from, Vec2 to) {
   const Vec2 span = minus(to, from), way = minus(point, from);

@@ -3,7 +3,7 @@
 #include "blocks/geos.hpp"
 #include "picture/palette.hpp"
 #include "picture/section.hpp"
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "scene/joints.hpp"
 #include "scene/loops.hpp"
 #include "scene/tables.hpp"
-#include "text/place.hpp"
+#include "geometry/place.hpp"
 
 #include <fmt/format.h>
 

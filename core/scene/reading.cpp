@@ -1,6 +1,6 @@
 #include "scene/reading.hpp"
 
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 #include "scene/tables.hpp"
 #include "text/nearest.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/loop.hpp"
 #include "geometry/vec2.hpp"
 #include "plugin/registry.hpp"
 #include "scene/function.hpp"
@@ -34,11 +35,6 @@ struct SceneMaterial {
 struct SurfaceClass {
   std::string material;
   std::string surface;
-};
-
-struct Loop {
-  std::vector<Vec2> vertices;                ///< m, relative to the scene's origin
-  std::vector<std::uint32_t> surface_class;  ///< [edge] index into Scene::surfaces; edge i runs from vertex i
 };
 
 /// What is prescribed of a body as a whole; absent entries are free.

@@ -4,7 +4,7 @@
 #include "step.hpp"
 
 #include "model/model.hpp"
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 #include "simulation/simulation.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "blocks/generator.hpp"
 
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 #include "scene/sample.hpp"
 
 namespace talus {

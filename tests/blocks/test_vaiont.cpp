@@ -1,6 +1,6 @@
 #include "blocks/generator.hpp"
 #include "figures/runs.hpp"
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 
 #include <catch2/catch.hpp>
 

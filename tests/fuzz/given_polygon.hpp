@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 
 #include <string_view>
 

@@ -4,7 +4,7 @@
 #include "conformance/boundary_arrays.hpp"
 #include "geometry/convex_pieces.hpp"
 #include "given_polygon.hpp"
-#include "output/triangulate.hpp"
+#include "geometry/triangulate.hpp"
 
 #include <talus/overlap/cells.hpp>
 

@@ -1,4 +1,4 @@
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 #include "scene/sample.hpp"
 
 #include <catch2/catch.hpp>

@@ -9,7 +9,7 @@ using namespace talus;
 
 namespace {
 
-const Ring rectangle{{1, 2}, {5, 2}, {5, 4}, {1, 4}};
+const Ring sample_ring{{1, 2}, {5, 2}, {5, 4}, {1, 4}};
 
 Ring rotated(const Ring& ring, double angle) {
   Ring result;
@@ -23,7 +23,7 @@ Ring rotated(const Ring& ring, double angle) {
 }  // namespace
 
 TEST_CASE("moments of a rectangle about any point are those of the closed form", "[geometry][polygon]") {
-  const AreaMoments about_middle = ring_moments(rectangle, {3, 3});
+  const AreaMoments about_middle = ring_moments(sample_ring, {3, 3});
   CHECK(about_middle.area == Approx(8));
   CHECK(about_middle.x == Approx(0).margin(1e-14));
   CHECK(about_middle.y == Approx(0).margin(1e-14));
@@ -31,7 +31,7 @@ TEST_CASE("moments of a rectangle about any point are those of the closed form",
   CHECK(about_middle.yy == Approx(4 * 8 / 12.0));
   CHECK(about_middle.xy == Approx(0).margin(1e-13));
 
-  const AreaMoments about_origin = ring_moments(rectangle, {0, 0});
+  const AreaMoments about_origin = ring_moments(sample_ring, {0, 0});
   CHECK(about_origin.x == Approx(8 * 3));
   CHECK(about_origin.y == Approx(8 * 3));
   CHECK(about_origin.xx == Approx(2 * 64 / 12.0 + 8 * 9));
@@ -66,15 +66,15 @@ TEST_CASE("a ring of many sides has the moments of the disc", "[geometry][polygo
 }
 
 TEST_CASE("a reversed ring counts negative, so that a hole is taken out by adding", "[geometry][polygon]") {
-  Ring reversed = rectangle;
+  Ring reversed = sample_ring;
   std::reverse(reversed.begin(), reversed.end());
-  const AreaMoments sum = ring_moments(rectangle, {0.3, -7}) + ring_moments(reversed, {0.3, -7});
+  const AreaMoments sum = ring_moments(sample_ring, {0.3, -7}) + ring_moments(reversed, {0.3, -7});
   for (const double value : {sum.area, sum.x, sum.y, sum.xx, sum.xy, sum.yy}) {
     CHECK(value == Approx(0).margin(1e-11));
   }
 
   Ring hole{{2, 2.5}, {2, 3.5}, {4, 3.5}, {4, 2.5}};
-  const AreaMoments frame = ring_moments(rectangle, {3, 3}) + ring_moments(hole, {3, 3});
+  const AreaMoments frame = ring_moments(sample_ring, {3, 3}) + ring_moments(hole, {3, 3});
   CHECK(frame.area == Approx(8 - 2));
   CHECK(frame.xx == Approx((2 * 64 - 1 * 8) / 12.0));
   CHECK(frame.yy == Approx((4 * 8 - 2 * 1) / 12.0));
@@ -91,9 +91,9 @@ TEST_CASE("moments about the centroid do not depend on where they were taken", "
 }
 
 TEST_CASE("the polar moment is the same in every orientation", "[geometry][polygon]") {
-  const CentralMoments upright = about_centroid(ring_moments(rectangle, {0, 0}));
+  const CentralMoments upright = about_centroid(ring_moments(sample_ring, {0, 0}));
   for (const double angle : {0.1, 0.7, 2.0, 4.4}) {
-    const CentralMoments m = about_centroid(ring_moments(rotated(rectangle, angle), {0, 0}));
+    const CentralMoments m = about_centroid(ring_moments(rotated(sample_ring, angle), {0, 0}));
     CHECK(m.area == Approx(8));
     CHECK(m.xx + m.yy == Approx(upright.xx + upright.yy));
     CHECK(m.xx * m.yy - m.xy * m.xy == Approx(upright.xx * upright.yy));
@@ -102,7 +102,7 @@ TEST_CASE("the polar moment is the same in every orientation", "[geometry][polyg
 
 TEST_CASE("the smallest width is that of the hull, however it is turned", "[geometry][polygon]") {
   for (const double angle : {0.0, 0.3, 1.2, 3.0}) {
-    CHECK(smallest_width(rotated(rectangle, angle)) == Approx(2));
+    CHECK(smallest_width(rotated(sample_ring, angle)) == Approx(2));
     // An equilateral triangle of side 2: its height.
     CHECK(smallest_width(rotated({{0, 0}, {2, 0}, {1, std::sqrt(3.0)}}, angle)) == Approx(std::sqrt(3.0)));
     // Concave: what the hull measures.

@@ -2,7 +2,7 @@
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "output/frame.hpp"
-#include "output/triangulate.hpp"
+#include "geometry/triangulate.hpp"
 #include "scratch.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 #include "output/scratch.hpp"
-#include "scene/polygons.hpp"
+#include "geometry/outlines.hpp"
 #include "scene/sample.hpp"
 
 #include <nlohmann/json.hpp>

@@ -187,7 +187,7 @@ struct PairReport {
   float damping_force;  ///< N/m, of all dashpots, by size, also where nothing has moved yet; 0 where none
                         ///< pushes
   double penetration;   ///< m, the largest overlap depth of the pair
-  double stored;        ///< J/m, recoverable energy: normal and tangential springs
+  double stored;        ///< J/m, recoverable energy, 0 or more: normal and tangential springs
   double slip_loss;     ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
   double damping_power;  ///< J/m, damping force of t_n times displacement since t_{n-1}; never negative
   double gap;  ///< m, 0, or of a pair without contact: the bodies are at least so far apart, and the law need
