@@ -2,8 +2,8 @@
 
 #include "blocks/geos.hpp"
 #include "geometry/box.hpp"
-#include "geometry/polygon.hpp"
 #include "geometry/place.hpp"
+#include "geometry/polygon.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "diagnosis/diagnosis.hpp"
 
+#include "geometry/place.hpp"
 #include "scene/tables.hpp"
 #include "simulation/time_step.hpp"
-#include "geometry/place.hpp"
 
 #include <talus/library.hpp>
 

@@ -1,9 +1,9 @@
 #include "picture/scene_picture.hpp"
 
 #include "blocks/geos.hpp"
+#include "geometry/outlines.hpp"
 #include "picture/palette.hpp"
 #include "picture/section.hpp"
-#include "geometry/outlines.hpp"
 
 #include <fmt/format.h>
 

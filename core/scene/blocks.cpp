@@ -1,10 +1,10 @@
 #include "scene/blocks.hpp"
 
 #include "blocks/cut.hpp"
+#include "geometry/place.hpp"
 #include "scene/joints.hpp"
 #include "scene/loops.hpp"
 #include "scene/tables.hpp"
-#include "geometry/place.hpp"
 
 #include <fmt/format.h>
 

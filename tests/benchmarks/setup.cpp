@@ -3,8 +3,8 @@
 #include "scenes.hpp"
 #include "step.hpp"
 
-#include "model/model.hpp"
 #include "geometry/outlines.hpp"
+#include "model/model.hpp"
 #include "simulation/simulation.hpp"
 
 #include <benchmark/benchmark.h>

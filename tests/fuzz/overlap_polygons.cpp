@@ -3,8 +3,8 @@
 #include "blocks/geos.hpp"
 #include "conformance/boundary_arrays.hpp"
 #include "geometry/convex_pieces.hpp"
-#include "given_polygon.hpp"
 #include "geometry/triangulate.hpp"
+#include "given_polygon.hpp"
 
 #include <talus/overlap/cells.hpp>
 

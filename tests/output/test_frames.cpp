@@ -1,8 +1,8 @@
 #include "decode.hpp"
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
-#include "output/frame.hpp"
 #include "geometry/triangulate.hpp"
+#include "output/frame.hpp"
 #include "scratch.hpp"
 
 #include <catch2/catch.hpp>

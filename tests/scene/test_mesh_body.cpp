@@ -1,5 +1,5 @@
-#include "output/scratch.hpp"
 #include "geometry/outlines.hpp"
+#include "output/scratch.hpp"
 #include "scene/sample.hpp"
 
 #include <nlohmann/json.hpp>

@@ -181,8 +181,7 @@ TEST_CASE("what is missed while a scene settles is told, and a small step is not
     while (simulation.advance()) {
     }
   };
-  CHECK_THROWS_WITH(run(),
-                    Catch::Contains("hardly the step; `talus check-plugin`"));
+  CHECK_THROWS_WITH(run(), Catch::Contains("hardly the step; `talus check-plugin`"));
 }
 
 TEST_CASE("what rounding makes of a wall at rest far from the origin is nothing to warn of",
