@@ -67,10 +67,10 @@ inline constexpr double near_by = 0.1;
 /// degrees.
 inline constexpr double leaning = 0.17;
 
-/// Entrance condition of DDA: a vertex stands on no side that its own edges go into, if there is another. For
-/// those no deeper than this share of the shorter edge, as at rest, it holds as it stands; deeper, as in
-/// hits, it counts by how much they go in, as it does for less than `leaning`: the side counts as further by
-/// this share per sine of the angle. The flank of an equal body is then never nearer than the face.
+/// Entrance condition of DDA: a vertex stands on no side that its own edges go into, or that it hardly looks
+/// at, if there is another. For those no deeper than this share of the shorter edge, as at rest, it holds as
+/// it stands; deeper, as in hits, a side counts as further by this share per sine of the angle beyond
+/// `leaning`.
 inline constexpr double resting = 0.003, further = 4;
 
 /// By how much the tributary of a vertex that lies flat on a side grows with its depth, m per m, as far as
@@ -174,18 +174,20 @@ class CornerFinder {
     double nearest = std::numeric_limits<double>::infinity(), least = nearest;
     bool entered = false;
     for (std::uint32_t k = 0; k < other.size(); ++k) {
-      if (!other.real(k) || dot(outward, other.normal(k)) >= looks_away) continue;
+      const double faced = dot(outward, other.normal(k));
+      if (!other.real(k) || faced >= looks_away) continue;
       const double depth = other.depth(k, at);
       if (depth <= 0 && depth <= -bond_reach.seen) return;
       // Collinear neighbours are equally deep; the vertex stands on the one its foot lies on.
       const double along = other.lever(k, at);
       const double distance = depth + other.length(k) * std::max({0.0, -along, along - 1});
       const double into = own.is_strip() ? 0 : edges.into(other.normal(k)),
-                   weighed = distance * (1 + further * into);
+                   weighed = distance * (1 + further * std::max(0.0, into - leaning));
       const bool idle = own.is_strip() && is_idle(own, v, other.normal(k));
       const bool beside = idle != contact.idle && std::isfinite(nearest) &&
                           (idle ? nearest : distance) <= near_by * own.length(0);
-      const bool enters = into > leaning,
+      const bool enters = into > leaning ||
+                          (into > 0 && faced * faced < leaning * leaning * dot(outward, outward)),
                  in_reach = (enters ? nearest : distance) <= resting * vertex.shorter;
       const bool ranks = enters != entered && in_reach && std::isfinite(nearest);
       if (beside ? idle : ranks ? enters : weighed >= least) continue;  // what edges go into comes last
