@@ -438,7 +438,7 @@ class CornerFinder {
   }
 
   /// Half of the stretch over which the vertex's flatter edge faces the other body, so that the two corners
-  /// of a flat contact carry α_N L together.
+  /// of a flat contact carry α_N L together. Notes what the spring of one that grows with its depth holds.
   static double tributary_length(std::span<const PiecePairGeometry> pieces, CornerContact& contact) {
     const std::uint32_t body = contact.vertex_body, side = contact.side;
     const Piece &own = pieces[contact.entry].piece[body], &other = pieces[contact.entry].piece[1 - body];

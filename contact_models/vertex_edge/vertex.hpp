@@ -25,8 +25,6 @@ struct Vertex {
   double shorter;       ///< m, length of the shorter of them; of a divided one with all that is straight
   std::uint32_t name;   ///< number of a corner, the same for all pieces that have this one
   bool divided;         ///< a cut ends in it: the piece has one of the edges only
-
-  Point outward() const { return before - after; }
 };
 
 /// The straight stretch of boundary that a side belongs to, along its tangent from its start: collinear

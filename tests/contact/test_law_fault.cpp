@@ -6,14 +6,21 @@
 using namespace talus;
 using Catch::Contains;
 
-TEST_CASE("A run stops with words when a law breaks the rules of loads", "[contact]") {
+namespace {
+
+Call run_under(const std::string& law) {
   const Scratch scratch;
   scratch.write("scene.json", small_scene());
-  const auto trouble_of = [&](const std::string& law) {
+  return call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES, "--set",
+                                       "/contact/model=" + law});
+}
+
+}  // namespace
+
+TEST_CASE("A run stops with words when a law breaks the rules of loads", "[contact]") {
+  const auto trouble_of = [](const std::string& law) {
     INFO(law);
-    const Call call =
-        call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES, "--set",
-                                      "/contact/model=" + law, "--overwrite"});
+    const Call call = run_under(law);
     CHECK(call.code == 4);
     CHECK_THAT(call.err, Contains("libmisbehaving.so: contact law '" + law + "' gave ") &&
                              Contains("t = 0 s") && Contains("wanted finite loads") &&
@@ -31,30 +38,21 @@ TEST_CASE("A run stops with words when a law breaks the rules of loads", "[conta
 }
 
 TEST_CASE("A law that says contacts hold less energy than none stops the run and is named", "[contact]") {
-  const Scratch scratch;
-  scratch.write("scene.json", small_scene());
-  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
-                                                  "--set", "/contact/model=debt"});
+  const Call call = run_under("debt");
   CHECK(call.code == 4);
   CHECK_THAT(call.err, Contains("libmisbehaving.so: contact law 'debt' gave a stored energy of -1 J/m") &&
                            Contains("mend the law or choose another"));
 }
 
 TEST_CASE("What a law throws where it may not is told before the program is aborted", "[contact]") {
-  const Scratch scratch;
-  scratch.write("scene.json", small_scene());
-  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
-                                                  "--set", "/contact/model=throws"});
+  const Call call = run_under("throws");
   CHECK(call.code == 134);
   CHECK_THAT(call.err, Contains("'no such pair' was thrown where nothing may be"));
 }
 
 TEST_CASE("A law that prepares an interface by what is no number is refused with the parameter",
           "[contact]") {
-  const Scratch scratch;
-  scratch.write("scene.json", small_scene());
-  const Call call = call_talus(scratch.folder(), {"run", "scene.json", "--plugin-path", TALUS_TEST_LIBRARIES,
-                                                  "--set", "/contact/model=nan_interface"});
+  const Call call = run_under("nan_interface");
   CHECK(call.code == 3);
   CHECK_THAT(call.err,
              Contains("libmisbehaving.so: contact law 'nan_interface' prepared nan from 'strength'"));
