@@ -78,6 +78,9 @@ inline constexpr double resting = 0.003, further = 4;
 /// behind that softly.
 inline constexpr double grows = 20;
 
+/// Ratio of the tributaries of two corners that meet, from which on they share one spring.
+inline constexpr double alike = 0.2;
+
 /// m, up to how deep behind a side the end of another counts as on it, though a flank is nearer. Lattices cut
 /// off sides shorter than any overlap, so that of the side below counts as well.
 inline double shallow(double own, double met) {
@@ -393,6 +396,8 @@ class CornerFinder {
       return at_start(contact, other) || at_end(contact, other);
     };
     if (!ends_at(p, q) || !ends_at(q, p)) return false;
+    // One that bears next to nothing is no half of the other.
+    if (std::min(p.tributary, q.tributary) < alike * std::max(p.tributary, q.tributary)) return false;
     return past(p, q) || past(q, p) || (near(p, q) && near(q, p));
   }
 

@@ -60,6 +60,21 @@ TEST_CASE("A block slides over a joint between two bodies as over one", "[laws][
   CHECK(simulation.body_motion(2).position.x > 1.008);
 }
 
+TEST_CASE("A corner past an outward bend sinks without a jump of force", "[laws][vertex_edge]") {
+  // Once it is as deep as it is past the bend, the corner of the bend is near it, but bears on another
+  // stretch.
+  LawBench bench("vertex_edge", undamped_interface());
+  bench.bodies = {held({{-1, -0.1227845609029046}, {-1, -2}, {1, -2}, {1, 0}, {0, 0}}),
+                  box(-0.0006, 0, 0.5994, 0.5)};
+  double before = 0;
+  for (int i = 1; i <= 120; ++i) {
+    const double force = shifted(bench, {0, -1e-5}).on(1).y;
+    CHECK(force > before);
+    before = force;
+  }
+  CHECK(before == Approx(1e9 * 0.6 * 1.2e-3).epsilon(0.05));
+}
+
 TEST_CASE("A heap of cells comes to rest where three of them meet", "[laws][vertex_edge]") {
   // There a vertex is behind a face and behind a flank that its own edge goes into, the less deep of the two.
   WorkingScene text;
