@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -63,18 +64,13 @@ std::filesystem::path followed(std::filesystem::path file) {
   return file;
 }
 
-constexpr int most_temporaries = 100;
-
-/// FILE.part, FILE.part2 and so on.
-std::filesystem::path temporary_of(std::filesystem::path file, int number) {
-  file += number == 1 ? ".part" : fmt::format(".part{}", number);
-  return file;
-}
-
-/// A new file beside one, which nobody else has or leads elsewhere.
+/// A new file beside one, which nobody else has or leads elsewhere: FILE.part, or FILE.part2 and so on where
+/// that is there.
 std::filesystem::path new_beside(const std::filesystem::path& file) {
-  for (int number = 1; number <= most_temporaries; ++number) {
-    std::filesystem::path temporary = temporary_of(file, number);
+  constexpr int most_tried = 100;
+  for (int number = 1; number <= most_tried; ++number) {
+    std::filesystem::path temporary = file;
+    temporary += number == 1 ? ".part" : fmt::format(".part{}", number);
     const int descriptor =
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0 && (errno == EEXIST || errno == ELOOP)) continue;
@@ -160,11 +156,17 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
 }
 
 std::vector<std::filesystem::path> temporaries_of(const std::filesystem::path& file) {
+  const std::string beginning = file.filename().string() + ".part";
   std::vector<std::filesystem::path> found;
-  for (int number = 1; number <= most_temporaries; ++number) {
-    std::filesystem::path temporary = temporary_of(file, number);
-    if (std::filesystem::exists(temporary)) found.push_back(std::move(temporary));
+  std::error_code none;  // a folder that is not there holds none
+  for (const std::filesystem::directory_entry& entry :
+       std::filesystem::directory_iterator(folder_of(file), none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(beginning) &&
+        name.find_first_not_of("0123456789", beginning.size()) == std::string::npos)
+      found.push_back(file.parent_path() / name);
   }
+  std::sort(found.begin(), found.end());
   return found;
 }
 

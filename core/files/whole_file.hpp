@@ -16,7 +16,7 @@ enum class Durability { with_the_system, on_disk };
 void write_whole_file(const std::filesystem::path& file, std::string_view contents,
                       Durability durability = Durability::with_the_system);
 
-/// What writers that were killed left beside a file, or would have: temporaries that are there.
+/// Temporaries beside a file that writers which were killed left there, by name.
 std::vector<std::filesystem::path> temporaries_of(const std::filesystem::path& file);
 
 /// Sees to it that what was written to a file, or for the names in it to a folder, outlives a failure of the

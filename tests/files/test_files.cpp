@@ -119,3 +119,13 @@ TEST_CASE("what is held open keeps what it has and its place", "[files]") {
                     Contains("cannot write '/dev/fd/"));
   ::close(descriptor);
 }
+
+TEST_CASE("What killed writers left beside a file is found, and nothing else", "[files]") {
+  const Scratch scratch;
+  for (const char* name :
+       {"a", "a.part", "a.part2", "a.part13", "a.partly", "a.part2.vtu", "aa.part", "b.part"})
+    scratch.write(name, "");
+  const std::vector<std::filesystem::path> due{scratch / "a.part", scratch / "a.part13", scratch / "a.part2"};
+  CHECK(temporaries_of(scratch / "a") == due);
+  CHECK(temporaries_of(scratch / "nowhere/a").empty());
+}
