@@ -29,12 +29,6 @@ double contraction_of(const Tensor& p, const Tensor& q) {
   return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
 }
 
-Tensor cauchy(const Tensor& p, const Tensor& f) {
-  Tensor stress = product(p, transposed(f));
-  for (double& component : stress) component /= determinant_of(f);
-  return stress;
-}
-
 Response DrivenElement::to(const Tensor& f, double dt) {
   Response response{};
   MaterialBatch batch{};

@@ -17,8 +17,6 @@ double size_of(const Tensor& t);
 double determinant_of(const Tensor& t);
 /// p : q.
 double contraction_of(const Tensor& p, const Tensor& q);
-/// σ = P Fᵀ / det F.
-Tensor cauchy(const Tensor& p, const Tensor& f);
 
 struct Response {
   Tensor stress;  ///< Pa, P

@@ -126,16 +126,6 @@ std::array<double, 3> RecordedCover::weights(std::uint32_t element, Point at) co
   return {cross(b, c, at) / whole, cross(c, a, at) / whole, cross(a, b, at) / whole};
 }
 
-std::vector<double> RecordedCover::row_sums() const {
-  std::vector<double> sums(stars.size(), 0);
-  for (std::uint32_t e = 0; e < elements.size(); ++e) {
-    const AreaMoments m = moments_of(elements[e].rings);
-    const auto w = weights(e, {m.x / m.area, m.y / m.area});
-    for (std::size_t k = 0; k < 3; ++k) sums[elements[e].patch[k]] += m.area * w[k];
-  }
-  return sums;
-}
-
 std::size_t RecordedCover::parts() const {
   std::vector<std::size_t> root(stars.size());
   std::iota(root.begin(), root.end(), std::size_t{0});

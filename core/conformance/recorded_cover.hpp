@@ -69,8 +69,7 @@ class RecordedCover final : public CoverSink {
 
   /// Shape functions of an element's star triangle.
   std::array<double, 3> weights(std::uint32_t element, Point at) const;
-  std::vector<double> row_sums() const;  ///< [patch] ∫ w dA, m²
-  std::size_t parts() const;             ///< pieces of the body that share no patch
+  std::size_t parts() const;  ///< pieces of the body that share no patch
 
   std::vector<Point> stars;
   std::vector<Element> elements;

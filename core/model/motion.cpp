@@ -74,11 +74,6 @@ void MotionState::add_force(const MaterialPoint& point, Vec2 load) {
   }
 }
 
-void MotionState::clear_forces(const Model& model) {
-  for (const std::uint32_t body : model.moving_bodies) forces[body] = {};
-  clear_patch_forces(model);
-}
-
 void MotionState::clear_patch_forces(const Model& model) {
   for (const std::uint32_t index : model.covered_bodies) {
     const Body& body = model.bodies[index];
@@ -115,15 +110,6 @@ void MotionState::average(const Model& model, std::uint32_t index) {
     add(mean.rate, minus(patch_velocity[patch], mean.velocity), g);
   }
   bodies[index] = mean;
-}
-
-void MotionState::move_boundary(const Model& model) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (model.bodies[i].kinematics == Kinematics::fixed) continue;
-    move_corners(model, i);
-    for (std::uint32_t piece = model.bodies[i].piece_begin; piece < model.bodies[i].piece_end; ++piece)
-      shape_piece(model, piece);
-  }
 }
 
 void MotionState::shape_piece(const Model& model, std::uint32_t piece) {

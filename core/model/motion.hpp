@@ -1,6 +1,6 @@
 #pragma once
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "model/model.hpp"
 
 #include <talus/contact_model.hpp>
@@ -56,17 +56,14 @@ struct MotionState {
   /// are as of the last shape_piece(): a piece that no pair lists is shaped for searches alone.
   std::vector<BoundaryCorner> corners;
 
-  /// Corners follow their moving bodies (Eq. 11).
-  void move_boundary(const Model& model);
-  /// The same of one body: where its corners are and how fast, of a body of many elements the ends of its
-  /// sides.
+  /// Corners follow their moving body (Eq. 11): where they are and how fast, of a body of many elements the
+  /// ends of its sides.
   void move_corners(const Model& model, std::size_t body);
   /// Then what contact reads of a piece: the rest of a strip, tangents and lengths of sides.
   void shape_piece(const Model& model, std::uint32_t piece);
 
-  /// Makes room for the forces of a step: none on bodies and on common patches. Own patches are set later.
-  void clear_forces(const Model& model);
-  void clear_patch_forces(const Model& model);  ///< those on patches alone
+  /// Makes room for the forces of a step on common patches. Own patches are set later.
+  void clear_patch_forces(const Model& model);
 
   /// The velocity at t_n of a body that moves as a whole, after a step that is looked at: it takes the place
   /// of the force, which has done all it does by then.

@@ -1,5 +1,6 @@
 #include "contact/contact_stage.hpp"
 #include "files/input_error.hpp"
+#include "model/whole_motion.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/working_scene.hpp"
@@ -32,7 +33,7 @@ struct HeldStage {
 
   ContactTotals evaluate(double dt = 1e-3) {
     for (BodyForce& force : motion.forces) force = {};
-    motion.move_boundary(model);
+    move_boundary(model, motion);
     contacts.find_pairs(model, motion, 1, far);  // the candidates are sought anew every time
     return contacts.evaluate(model, motion, {dt, true, false});
   }
@@ -40,7 +41,7 @@ struct HeldStage {
   /// A step among the candidates of the last search.
   ContactTotals evaluate_near() {
     for (BodyForce& force : motion.forces) force = {};
-    motion.move_boundary(model);
+    move_boundary(model, motion);
     contacts.find_pairs(model, motion, 0, {});
     return contacts.evaluate(model, motion, {1e-3, true, false});
   }

@@ -1,4 +1,5 @@
 #include "contact/contact_stage.hpp"
+#include "model/whole_motion.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/working_scene.hpp"
 
@@ -27,7 +28,7 @@ ContactTotals totals_at_rest(const WorkingScene& text) {
   const Scene scene = text.read();
   const Model model = build_model(scene);
   MotionState motion(model);
-  motion.move_boundary(model);
+  move_boundary(model, motion);
   ContactStage contacts(scene, model, alone(), true);
   contacts.find_pairs(model, motion, 0, {});
   return contacts.evaluate(model, motion, {0, false, false});
@@ -85,7 +86,7 @@ TEST_CASE("between the fragments of a body the contact force is minus the gradie
   const auto stored = [&](const std::vector<Vec2>& at) {
     MotionState motion(model);
     motion.patch_displacement = at;
-    motion.move_boundary(model);
+    move_boundary(model, motion);
     ContactStage contacts(scene, model, alone(), true);
     contacts.find_pairs(model, motion, 0, {});
     const double energy = contacts.evaluate(model, motion, {0, false, false}).stored;

@@ -1,4 +1,5 @@
 #include "contact/contact_stage.hpp"
+#include "model/whole_motion.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/working_scene.hpp"
@@ -51,7 +52,7 @@ class Pressed {
       const Vec2 star = model_.patch_star[p];
       motion.patch_displacement[p] = {x + h.xx * star.x + h.xy * star.y, y + h.yx * star.x + h.yy * star.y};
     }
-    motion.move_boundary(model_);
+    move_boundary(model_, motion);
     ContactStage contacts(scene_, model_, alone(), true);
     contacts.find_pairs(model_, motion, 0, {});
     Loaded loaded{contacts.evaluate(model_, motion, {0, true, false}).stored, {}, {}, 0};
@@ -184,7 +185,7 @@ TEST_CASE("between searches strips are shaped where a pair lists them, and nowhe
   for (Vec2& v : motion.patch_velocity) v = {0.1, -0.2};
   motion.bodies[2].h = {0, -1e-4, 1e-4, 0};
   MotionState all = motion;
-  all.move_boundary(model);
+  move_boundary(model, all);
   for (const std::uint32_t body : model.moving_bodies) motion.move_corners(model, body);
   REQUIRE_FALSE(contacts.find_pairs(model, motion, 1e-3, {0.3, 0.3, 0.3}));
 

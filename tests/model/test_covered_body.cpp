@@ -1,6 +1,7 @@
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "simulation/working_scene.hpp"
+#include "whole_motion.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -132,7 +133,7 @@ TEST_CASE("a body of many elements turns and stretches with its patches", "[mode
     const Vec2 star = model.patch_star[p];
     motion.patch_displacement[p] = {2 + h.xx * star.x + h.xy * star.y, -1 + h.yx * star.x + h.yy * star.y};
   }
-  motion.move_boundary(model);
+  move_boundary(model, motion);
   motion.average(model, 0);
   CHECK(motion.bodies[0].u.x == Approx(2));
   CHECK(motion.bodies[0].u.y == Approx(-1));

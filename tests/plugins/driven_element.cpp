@@ -8,6 +8,12 @@
 
 namespace talus {
 
+Tensor cauchy(const Tensor& p, const Tensor& f) {
+  Tensor stress = product(p, transposed(f));
+  for (double& component : stress) component /= determinant_of(f);
+  return stress;
+}
+
 Made<Material> shipped_material(const std::string& name, std::span<const double> values) {
   const RegisteredComponent* found = shipped_registry().find(ComponentKind::material, name);
   REQUIRE(found != nullptr);

@@ -8,7 +8,6 @@
 
 namespace talus {
 
-using conformance::cauchy;
 using conformance::contraction_of;
 using conformance::determinant_of;
 using conformance::DrivenElement;
@@ -22,6 +21,9 @@ using conformance::transposed;
 
 constexpr double young = 2e9, poisson = 0.3;          ///< Pa; of the elastic samples
 constexpr double plane_strain = 0, plane_stress = 1;  ///< values of the parameter "plane"
+
+/// σ = P Fᵀ / det F.
+Tensor cauchy(const Tensor& p, const Tensor& f);
 
 /// A material of this build by its name and the values of its parameters in declared order.
 Made<Material> shipped_material(const std::string& name, std::span<const double> values);

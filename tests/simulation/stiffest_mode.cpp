@@ -2,6 +2,7 @@
 #include "parallel/alone.hpp"
 
 #include "contact/contact_stage.hpp"
+#include "model/whole_motion.hpp"
 #include "simulation/deformation.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/loads.hpp"
@@ -91,7 +92,7 @@ class Oscillator {
       body.velocity = u;  // over a step of 1 s: the slip that loads the tangential springs
       body.rate = h;
     }
-    motion.move_boundary(model_);
+    move_boundary(model_, motion);
     ContactStage contacts(scene_, model_, alone(), true);
     contacts.find_pairs(model_, motion, 0, {});
     contacts.evaluate(model_, motion, {1, true, false});

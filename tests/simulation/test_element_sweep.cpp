@@ -1,4 +1,5 @@
 #include "figures/runs.hpp"
+#include "model/whole_motion.hpp"
 #include "output/scratch.hpp"
 #include "parallel/alone.hpp"
 #include "simulation/blocks.hpp"
@@ -121,7 +122,7 @@ TEST_CASE("swept forces and energy are those of the elements one by one", "[cont
     Deformation deformation(scene, model, alone());
     double stored = 0;
     const std::vector<Vec2> plain = plain_forces(scene, model, motion, stored);
-    motion.clear_forces(model);
+    clear_forces(model, motion);
     const Deformation::Energy energy = deformation.apply(model, motion, 1e-6);
     double largest = 0, error = 0;
     for (std::size_t p = 0; p < plain.size(); ++p) {
@@ -141,8 +142,8 @@ TEST_CASE("keeping stress for output changes no bits", "[continuum][sweep]") {
     MotionState kept(model), not_kept(model);
     disturb(model, kept);
     disturb(model, not_kept);
-    kept.clear_forces(model);
-    not_kept.clear_forces(model);
+    clear_forces(model, kept);
+    clear_forces(model, not_kept);
     Deformation first(scene, model, alone()), second(scene, model, alone());
     const Deformation::Energy one = first.apply(model, kept, 1e-6, true),
                               two = second.apply(model, not_kept, 1e-6, false);
@@ -160,7 +161,7 @@ TEST_CASE("stress for output is that of the elements one by one, kept or not", "
     MotionState motion(model);
     disturb(model, motion);
     Deformation deformation(scene, model, alone());
-    motion.clear_forces(model);
+    clear_forces(model, motion);
     deformation.apply(model, motion, 1e-6, true);
     const Choice& choice = scene.materials[0].model;
     const auto material = make<Material>(*choice.component, choice.values);
@@ -193,10 +194,10 @@ TEST_CASE("an element that is inside out is seen where stress is kept", "[contin
     const Model model = build_model(scene);
     MotionState motion(model);
     Deformation deformation(scene, model, alone());
-    motion.clear_forces(model);
+    clear_forces(model, motion);
     CHECK_FALSE(deformation.apply(model, motion, 1e-6, true).inside_out);
     motion.patch_displacement[model.elements[model.elements.size() / 2].patch[0]] = {0.3, -0.4};
-    motion.clear_forces(model);
+    clear_forces(model, motion);
     CHECK(deformation.apply(model, motion, 1e-6, true).inside_out);
     CHECK_FALSE(deformation.apply(model, motion, 1e-6, false).inside_out);
   }
@@ -219,8 +220,8 @@ TEST_CASE("one pass gives the bits of forces first and velocities afterwards", "
       Deformation first(scene, model, alone()), second(scene, model, alone());
       std::vector<Vec2> at_one(model.patch_star.size()), at_two = at_one;
       one.own_behind = two.own_behind = 1e-6;
-      one.clear_forces(model);
-      two.clear_forces(model);
+      clear_forces(model, one);
+      clear_forces(model, two);
       const Deformation::Energy now =
           first.apply_and_update(model, mass, supports, conditions, conditions.dt_behind, true, one, at_one);
       for (std::size_t b = 0; b < model.bodies.size(); ++b) {

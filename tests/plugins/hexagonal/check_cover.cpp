@@ -148,7 +148,7 @@ void check_boundary(const DrawnBody& body, const RecordedCover& cover, double si
 }
 
 void check_steadied(const RecordedCover& cover, double size) {
-  std::vector<double> carried = cover.row_sums();
+  std::vector<double> carried = row_sums(cover);
   std::vector<int> times(cover.stars.size(), 0);
   for (const Steadied& one : cover.steadied) ++times[one.patch];
   for (const Steadied& one : cover.steadied) {
@@ -160,7 +160,7 @@ void check_steadied(const RecordedCover& cover, double size) {
       const Point star = cover.stars[one.to[k]];
       sum = {sum.x + one.weights[k] * star.x, sum.y + one.weights[k] * star.y};
       if (std::isinf(one.inertia_area)) {
-        carried[one.to[k]] += one.weights[k] * cover.row_sums()[one.patch];
+        carried[one.to[k]] += one.weights[k] * row_sums(cover)[one.patch];
       }
     }
     REQUIRE(distance(sum, cover.stars[one.patch]) <= 1e-10 * size);

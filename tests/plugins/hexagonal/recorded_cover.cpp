@@ -52,4 +52,14 @@ Line reversed(Line line) {
   return line;
 }
 
+std::vector<double> row_sums(const RecordedCover& cover) {
+  std::vector<double> sums(cover.stars.size(), 0);
+  for (std::uint32_t e = 0; e < cover.elements.size(); ++e) {
+    const AreaMoments m = moments_of(cover.elements[e].rings);
+    const auto w = cover.weights(e, {m.x / m.area, m.y / m.area});
+    for (std::size_t k = 0; k < 3; ++k) sums[cover.elements[e].patch[k]] += m.area * w[k];
+  }
+  return sums;
+}
+
 }  // namespace talus::covered

@@ -18,6 +18,7 @@ struct Settings {
 
 RecordedCover lay(const DrawnBody& body, const Settings& settings);
 
+std::vector<double> row_sums(const RecordedCover& cover);  ///< [patch] ∫ w dA, m²
 double outline_length(const DrawnBody& body);
 double boundary_length(const RecordedCover& cover);
 bool segments_cross(Point p, Point q, Point r, Point s);

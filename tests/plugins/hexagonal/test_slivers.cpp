@@ -18,7 +18,7 @@ DrawnBody overhanging(double e = 1e-6) {
 
 std::size_t poor_patches(const RecordedCover& cover, double share) {
   std::size_t count = 0;
-  for (const double sum : cover.row_sums()) count += sum < share * full ? 1 : 0;
+  for (const double sum : row_sums(cover)) count += sum < share * full ? 1 : 0;
   return count;
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("merging leaves no free patch with little of the body", "[plugins][hex
   REQUIRE(poor_patches(cover, 1e-5) > 0);
   REQUIRE(cover.steadied.size() == poor_patches(cover, 0.1));
 
-  const std::vector<double> sums = cover.row_sums();
+  const std::vector<double> sums = row_sums(cover);
   for (const Steadied& one : cover.steadied) {
     CHECK(sums[one.patch] < 0.1 * full);
     CHECK(std::isinf(one.inertia_area));
@@ -54,7 +54,7 @@ TEST_CASE("mass scaling gives a patch the inertia that it lacks", "[plugins][hex
   check_cover(body, cover, 1);
   REQUIRE(cover.steadied.size() == poor_patches(cover, 0.1));
   REQUIRE(!cover.steadied.empty());
-  const std::vector<double> sums = cover.row_sums();
+  const std::vector<double> sums = row_sums(cover);
   for (const Steadied& one : cover.steadied) {
     CHECK(sums[one.patch] + one.inertia_area == Approx(0.1 * full).epsilon(1e-12));
   }
