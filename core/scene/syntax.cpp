@@ -50,6 +50,12 @@ char before(const std::string& text, std::size_t offset) {
   return at == std::string::npos ? '\0' : text[at];
 }
 
+/// 02800: the parser takes the zero for a number and stops at what follows.
+bool begins_with_needless_zero(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return word.size() > 1 && word[0] == '0' && std::isdigit(static_cast<unsigned char>(word[1])) != 0;
+}
+
 SyntaxError unexpected_token(const std::string& text, std::size_t byte, std::string_view words) {
   const std::string expected = wanted(between(words, "; expected "));
   if (between(words, "unexpected ") == "end of input") {
@@ -63,6 +69,10 @@ SyntaxError unexpected_token(const std::string& text, std::size_t byte, std::str
     return {start, fmt::format("the comma before '{}' is one too many", found)};
   }
   if (found.empty()) return {start, fmt::format("found nothing where {} should stand", expected)};
+  if (begins_with_needless_zero(found)) {
+    return {start,
+            fmt::format("'{}' is no JSON value: no number begins with a zero before other digits", found)};
+  }
   return {start, fmt::format("found {} where {} should stand", found[0] == '"' ? found : "'" + found + "'",
                              expected)};
 }
