@@ -79,8 +79,9 @@ inline std::uint32_t any_real_side(const Overlap& overlap, const Piece& slave) {
   return side;
 }
 
-/// Parameters of a cell: of its master side with the slave sides in it, by their shares of the load along
-/// the normal of the cell, so that nothing jumps when a slave corner passes a division line.
+/// Parameters of a cell: of its master side with the slave sides in it, by their shares of the overlap along
+/// the normal of the cell, so that nothing jumps when a slave corner passes a division line. Friction goes by
+/// what each bears, α_N times its share: the cell slips at Σ μ_k N_k.
 template <class Law>
 InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, const Overlap& overlap,
                                  const Piece& master, const Piece& slave, std::uint32_t side,
@@ -91,12 +92,21 @@ InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, c
     return law.interface(interfaces.value + row * interfaces.parameter_count);
   };
   if (segments.size() == 1) return parameters_with(segments[0].side);
-  double total = 0;
+  double total = 0, borne = 0, slips = 0;
   for (const Segment& segment : segments) total += segment.facing_share();
   if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
   InterfaceParameters mean;
-  for (const Segment& segment : segments)
-    mean.add(segment.facing_share() / total, parameters_with(segment.side));
+  const double stiffness = parameters_with(segments[0].side).normal_stiffness;
+  bool alike = true;
+  for (const Segment& segment : segments) {
+    const InterfaceParameters own = parameters_with(segment.side);
+    const double weight = segment.facing_share() / total;
+    mean.add(weight, own);
+    alike = alike && own.normal_stiffness == stiffness;
+    borne += weight * own.normal_stiffness;
+    slips += weight * own.normal_stiffness * own.friction;
+  }
+  if (!alike && borne > 0) mean.friction = slips / borne;
   return mean;
 }
 
