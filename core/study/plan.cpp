@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,15 @@ struct Span {
   double at(double share) const {
     if (low > 0 && high / low >= by_ratio) return low * std::pow(high / low, share);
     return low + share * (high - low);
+  }
+
+  /// With six digits, and as many more as a narrow range takes; all where rounding would leave the range.
+  std::string text(double share) const {
+    const double value = at(share), narrow = std::max(std::abs(low), std::abs(high)) / (high - low);
+    const int digits = 6 + static_cast<int>(std::clamp(std::floor(std::log10(narrow)), 0.0, 11.0));
+    const std::string rounded = fmt::format("{:.{}g}", value, digits);
+    const double taken = plain_number(rounded).value_or(value);
+    return low <= taken && taken <= high ? rounded : fmt::format("{}", value);
   }
 };
 
@@ -105,7 +115,7 @@ StudyPlan latin_hypercube(const std::vector<Variation>& variations, std::size_t 
     for (std::size_t i = 0; i < count; ++i) {
       if (span) {
         const double share = (static_cast<double>(strata[i]) + random.share()) / static_cast<double>(count);
-        plan.points[i].values.push_back(fmt::format("{:.6g}", span->at(share)));
+        plan.points[i].values.push_back(span->text(share));
       } else {
         plan.points[i].values.push_back(variation.values[strata[i] * variation.values.size() / count]);
       }

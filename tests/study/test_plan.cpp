@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace talus;
 using Catch::Matchers::Contains;
@@ -44,6 +45,20 @@ TEST_CASE("A Latin hypercube meets each stratum once", "[study]") {
   CHECK(latin_hypercube({{"/word", {"a", "b"}}}, count, 7).points.size() == 2);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 7).points[3].values[0] == plan.points[3].values[0]);
   CHECK(latin_hypercube({{"/even", {"2:3"}}}, count, 8).points[3].values[0] != plan.points[3].values[0]);
+}
+
+TEST_CASE("Samples of a narrow range far from zero are as many as asked for, each within it", "[study]") {
+  for (const auto& [low, high] : {std::pair{"1234567.1", "1234567.4"},
+                                  {"-1234567.4", "-1234567.1"},
+                                  {"2.71828182845", "2.71828182846"},
+                                  {"0.1234567", "0.9876543"}}) {
+    const StudyPlan plan = latin_hypercube({{"/a", {std::string(low) + ":" + high}}}, 20, 7);
+    CHECK(plan.points.size() == 20);
+    for (const StudyPoint& point : plan.points) {
+      CHECK(std::stod(point.values[0]) >= std::stod(low));
+      CHECK(std::stod(point.values[0]) <= std::stod(high));
+    }
+  }
 }
 
 TEST_CASE(
