@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "files/folder_lock.hpp"
+#include "files/hash.hpp"
 #include "files/whole_file.hpp"
 #include "interrupt.hpp"
 #include "output/output_folder.hpp"
@@ -16,8 +17,10 @@
 #include "text/nearest.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace talus {
 
@@ -101,25 +104,6 @@ const ReducedRun& run_at(const Safety& safety, double factor) {
   return *std::ranges::find(safety.runs, factor, &ReducedRun::factor);
 }
 
-/// What makes a factor that was found less sure than it looks.
-void warn_of_run(const Scene& scene, const Safety& safety) {
-  for (const std::string& warning : safety.warnings) print_warning(warning);
-  if (!safety.stands) return;
-  const ReducedRun& stood = run_at(safety, *safety.stands);
-  if (!stood.came_to_rest.empty())
-    print_warning(fmt::format(
-        "at {:.4g} these stand only after they moved by a hundredth of their width, or of the size of their "
-        "elements, or more: where "
-        "they met something that stops them, what they slide on bears less than the factor says; where they "
-        "lean on contacts that give, it bears more, and stiffer ones show how much: {}",
-        stood.factor, listed(names_of(scene, stood.came_to_rest))));
-  if (stood.moving_little.empty()) return;
-  print_warning(
-      fmt::format("at {:.4g} still moving after {:.4g} s, too slowly to call it a collapse: {}; "
-                  "the factor may be less: give it a longer /time/end",
-                  stood.factor, stood.lasted, listed(names_of(scene, stood.moving_little))));
-}
-
 bool has_loads_in_time(const Scene& scene) {
   return varies_in_time(scene.base_acceleration) ||
          std::ranges::any_of(scene.loads, [](const PointLoad& load) { return varies_in_time(load.force); }) ||
@@ -128,40 +112,95 @@ bool has_loads_in_time(const Scene& scene) {
          });
 }
 
-void warn_of_flutter(const Simulation& simulation) {
-  Preview foreseen;
-  compare_stiffness(simulation, foreseen);
-  if (const std::string words = words_of_flutter(simulation.scene(), foreseen); !words.empty())
-    print_warning(words + ", and without it the factor may come out some per cent low");
-}
-
-void warn_of_scene(const Scene& scene) {
+std::vector<std::string> warnings_of_scene(const Scene& scene) {
+  std::vector<std::string> warnings;
   if (!scene.stages.empty())
-    print_warning("the stages of the scene are left out: strength is reduced from the start");
+    warnings.emplace_back("the stages of the scene are left out: strength is reduced from the start");
   if (!scene.settle)
-    print_warning("the scene has no settle stage: what it does to come to rest counts as motion");
-  std::vector<std::string> raised;
-  question_bonds(scene, raised);
-  for (const std::string& words : raised) print_warning(words);
+    warnings.emplace_back("the scene has no settle stage: what it does to come to rest counts as motion");
+  question_bonds(scene, warnings);
   std::vector<std::string> moving, driven;
-  for (const SceneBody& body : scene.bodies) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
     if (body.velocity.x != 0 || body.velocity.y != 0 || body.angular_velocity != 0)
       moving.push_back(body.name);
-  }
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-    if (is_driven(scene, body)) driven.push_back(scene.bodies[body].name);
+    if (is_driven(scene, i)) driven.push_back(body.name);
   }
   if (has_loads_in_time(scene))
-    print_warning(
+    warnings.emplace_back(
         "loads or a motion of the ground vary in time: a body that they move on for a while and that comes "
         "to rest has failed once it has come a twentieth of its width; how far it comes is for `talus run`. "
         "Runs that go on past /time/end keep the loads that they have then; a motion of the ground goes on");
-  if (!moving.empty()) print_warning(fmt::format("velocities at the start are left out: {}", listed(moving)));
+  if (!moving.empty())
+    warnings.push_back(fmt::format("velocities at the start are left out: {}", listed(moving)));
   if (!driven.empty())
-    print_warning(
+    warnings.push_back(
         fmt::format("motion along axes along which the scene drives a body does not count, that of others "
                     "that it takes with it does: {}",
                     listed(driven)));
+  return warnings;
+}
+
+/// Of what may flutter once the scene runs undamped.
+std::vector<std::string> warnings_of_stiffness(const Simulation& simulation) {
+  Preview foreseen;
+  compare_stiffness(simulation, foreseen);
+  const std::string words = words_of_flutter(simulation.scene(), foreseen);
+  if (words.empty()) return {};
+  return {words + ", and without it the factor may come out some per cent low"};
+}
+
+/// What makes a factor that was found less sure than it looks.
+std::vector<std::string> warnings_of_runs(const Scene& scene, const Safety& safety) {
+  std::vector<std::string> warnings = safety.warnings;
+  if (safety.stands) {
+    const ReducedRun& stood = run_at(safety, *safety.stands);
+    if (!stood.came_to_rest.empty())
+      warnings.push_back(fmt::format(
+          "at {:.4g} these stand only after they moved by a hundredth of their width, or of the size of "
+          "their elements, or more: where they met something that stops them, what they slide on bears less "
+          "than the factor says; where they lean on contacts that give, it bears more, and stiffer ones show "
+          "how much: {}",
+          stood.factor, listed(names_of(scene, stood.came_to_rest))));
+    if (!stood.moving_little.empty())
+      warnings.push_back(
+          fmt::format("at {:.4g} still moving after {:.4g} s, too slowly to call it a collapse: {}; "
+                      "the factor may be less: give it a longer /time/end",
+                      stood.factor, stood.lasted, listed(names_of(scene, stood.moving_little))));
+  }
+  if (!safety.factor()) return warnings;
+  const ReducedRun& fallen = run_at(safety, *safety.falls);
+  if (was_stopped(fallen))
+    warnings.push_back(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",
+                                   fallen.factor, fallen.trouble));
+  if (fallen.stands_again)
+    warnings.push_back(
+        fmt::format("what failed at {:.4g} came {:.3g} m and stands again: the factor is that of a "
+                    "twentieth of its width, of the size of its elements where it has many, and no collapse "
+                    "that goes on",
+                    fallen.factor, fallen.displacement));
+  return warnings;
+}
+
+/// The answer with all that was said of it, for scripts and for those who find the folder later.
+std::string safety_json(const Scene& scene, const SceneFile& source, const SafetySettings& settings,
+                        const Safety& safety, const std::vector<std::string>& warnings) {
+  OrderedJson json;
+  json["talus"] = TALUS_VERSION;
+  json["scene"] = source.file.string();
+  json["scene_hash"] = hash_of_bytes(source.text);
+  json["end"] = safety.interrupted ? "interrupted" : "finished";
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    json[key] = value ? OrderedJson(*value) : OrderedJson(nullptr);
+  };
+  put("factor", safety.interrupted ? std::nullopt : safety.factor());
+  put("stands", safety.stands);
+  put("collapses", safety.falls);
+  json["tolerance"] = settings.tolerance;
+  json["failing bodies"] =
+      safety.factor() ? names_of(scene, run_at(safety, *safety.falls).moving) : std::vector<std::string>{};
+  json["warnings"] = warnings;
+  return json.dump(2) + "\n";
 }
 
 void say_result(const Scene& scene, const Safety& safety) {
@@ -169,23 +208,13 @@ void say_result(const Scene& scene, const Safety& safety) {
     say_bounds(safety);
     return;
   }
-  warn_of_run(scene, safety);
   const std::string what = safety.of_what_is_left ? "what was left after settling" : "it";
   if (const auto factor = safety.factor()) {
     fmt::print("factor of safety {:.4g}: {}stands at {:.4g}, collapses at {:.4g}\n", *factor,
                safety.of_what_is_left ? what + " " : "", *safety.stands, *safety.falls);
     const ReducedRun& fallen = run_at(safety, *safety.falls);
-    const std::vector<std::string> names = names_of(scene, fallen.moving);
-    if (was_stopped(fallen))
-      print_warning(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",
-                                fallen.factor, fallen.trouble));
-    if (!names.empty()) fmt::print("failing at {:.4g}: {}\n", fallen.factor, listed(names));
-    if (fallen.stands_again)
-      print_warning(
-          fmt::format("what failed at {:.4g} came {:.3g} m and stands again: the factor is that of a "
-                      "twentieth of its width, "
-                      "of the size of its elements where it has many, and no collapse that goes on",
-                      fallen.factor, fallen.displacement));
+    if (!fallen.moving.empty())
+      fmt::print("failing at {:.4g}: {}\n", fallen.factor, listed(names_of(scene, fallen.moving)));
   } else if (safety.falls) {
     fmt::print("{} collapses even with {:.3g} times its strength: look whether it can stand at all\n", what,
                1 / *safety.falls);
@@ -202,9 +231,10 @@ Usage usage_of_safety() {
       "Factor of safety by strength reduction: tan φ, cohesion and tensile strength of all interfaces, and\n"
       "of materials that have them, are divided by a factor until the scene collapses, by bisection, each\n"
       "time from the same settled geometry (where bonds may form from where bodies are drawn) and for as\n"
-      "long as the scene lasts, or up to eight times as long where that does not tell. Writes safety.csv,\n"
-      "safety.svg and how it fails, mechanism.svg, to a folder:\n"
-      "out/<scene name>-safety unless --out says otherwise. Pore pressure and bolts are not modelled.",
+      "long as the scene lasts, or up to eight times as long where that does not tell. Writes\n"
+      "safety.json (the factor and all warnings), safety.csv (the runs), safety.svg and how it fails,\n"
+      "mechanism.svg, to a folder: out/<scene name>-safety unless --out says otherwise. Stages of the scene\n"
+      "are left out; pore pressure and bolts are not modelled.",
       "SCENE",
       "  talus safety scenes/stick_31deg.json\n"
       "  talus safety slope.json --tolerance 0.002 --set /time/end=5\n"};
@@ -230,17 +260,18 @@ int safety_command(const Words& words) {
   settings.threads = threads_of(usage, *given, 1);
   Registry registry = offered_registry(usage, *given);
   const SceneFile source = scene_file_of(*given);
-  const std::filesystem::path& file = source.file;
-  const std::string out = text_option(*given, "out");
-  const std::filesystem::path folder = out.empty()
-                                           ? std::filesystem::path("out") / (file.stem().string() + "-safety")
-                                           : std::filesystem::path(out);
+  const std::filesystem::path folder = output_folder(*given, source, "-safety");
   const Scene scene =
       read_scene_of(source, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
-  for (const std::string& warning : scene.warnings) print_warning(warning);
-  warn_of_scene(scene);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::vector<std::string>& more) {
+    for (const std::string& warning : more) print_warning(warning);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  warn(scene.warnings);
+  warn(warnings_of_scene(scene));
   const Simulation sound(with_reduced_strength(scene, 1), {});  // or throws, before anything is lost
-  warn_of_flutter(sound);
+  warn(warnings_of_stiffness(sound));
   prepare_output_folder(folder, given->count("overwrite") != 0, scene.files_read());
   const FolderLock mine(folder);
 
@@ -250,11 +281,13 @@ int safety_command(const Words& words) {
   settings.tried = [&](const ReducedRun& run) { say_try(scene, run); };
   const Safety safety = factor_of_safety(scene, settings);
   if (!safety.trouble.empty()) {
-    for (const std::string& warning : safety.warnings) print_warning(warning);
+    warn(safety.warnings);
     throw NumericalTrouble(safety.trouble);
   }
+  if (!safety.interrupted) warn(warnings_of_runs(scene, safety));
   write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
   write_whole_file(folder / "safety.svg", safety_svg(safety));
+  write_whole_file(folder / "safety.json", safety_json(scene, source, settings, safety, warnings));
   if (const std::string mechanism = mechanism_svg(scene, safety); !mechanism.empty())
     write_whole_file(folder / "mechanism.svg", mechanism);
   say_result(scene, safety);

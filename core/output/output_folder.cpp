@@ -4,8 +4,8 @@
 #include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
-#include "output/quantity.hpp"
 #include "output/records.hpp"
+#include "scene/quantity.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,9 +32,9 @@ bool is_frame(const fs::path& file) {
 }
 
 constexpr const char* files_of_run[] = {
-    "history.csv",  "resolved.json", "run.json",    "frames.pvd",  "energy.csv",   "safety.csv",
-    "safety.svg",   "mechanism.svg", "report.html", "compare.csv", "compare.json", "compare_reference.csv",
-    checkpoint_name};
+    "history.csv",           "resolved.json", "run.json",      "frames.pvd",  "energy.csv",  "safety.csv",
+    "safety.json",           "safety.svg",    "mechanism.svg", "report.html", "compare.csv", "compare.json",
+    "compare_reference.csv", checkpoint_name};
 constexpr const char* files_of_study[] = {"study.csv", "study.json", "study.svg", "study.html"};
 
 std::vector<fs::path> present(const fs::path& folder, std::span<const char* const> names) {
@@ -143,7 +143,8 @@ void remove_files_of_run(const fs::path& run) {
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
+std::vector<fs::path> refuse_output_folder(const fs::path& folder, bool overwrite,
+                                           const std::vector<fs::path>& read) {
   refuse_file(folder);
   std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && !overwrite) {
@@ -155,6 +156,11 @@ void prepare_output_folder(const fs::path& folder, bool overwrite, const std::ve
   if (!overwrite) refuse_study(folder);
   for (fs::path& file : present(folder, files_of_study)) results.push_back(std::move(file));
   for (const fs::path& file : results) refuse_to_remove(file, read);
+  return results;
+}
+
+void prepare_output_folder(const fs::path& folder, bool overwrite, const std::vector<fs::path>& read) {
+  const std::vector<fs::path> results = refuse_output_folder(folder, overwrite, read);
   fs::create_directories(folder);
   const FolderLock mine(folder);
   for (const fs::path& file : results) fs::remove(file);

@@ -13,6 +13,8 @@ constexpr double lost = 0.05;     ///< share of the size: whatever stops further
 constexpr double steady = 0.45;   ///< of the way, in the second half of the time: one half at constant speed
 constexpr double kept = 0.9;      ///< of the speed in the middle, at the end
 constexpr double slowing = 0.25;  ///< of the way, and of that speed: slower, but not at rest
+constexpr double crawling = 0.8;  ///< of the way that the speed at the end would make in the second half
+constexpr double crept = 1e-3;    ///< of the way: less is the last of what an elastic body has to give
 
 /// Along x and y; turning a body drives its vertices along both.
 std::array<bool, 2> driven_axes(const Scene& scene, std::size_t body) {
@@ -80,7 +82,7 @@ std::vector<Vec2> Pieces::places(const Simulation& simulation) const {
 
 PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec2>& began) const {
   const std::vector<double> none(pieces_.size());
-  PieceMotions motions{none, none, none};
+  PieceMotions motions{none, none, none, simulation.time()};
   std::size_t vertex = 0;
   for (const std::size_t body : bodies_) {
     over_vertices(simulation, body, [&](std::size_t, const PartPoint& point) {
@@ -104,6 +106,10 @@ Course Pieces::course(std::size_t piece, const PieceMotions& middle, const Piece
   if (end.moved[piece] > lost * size)
     return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
   if (goes_on) return far ? Course::failed : Course::goes_on;
+  // At a constant speed, after it gave way by more than that when its strength was cut.
+  const bool crawls = end.speed[piece] > kept * middle.speed[piece] && lately > crept * way &&
+                      lately > crawling * end.speed[piece] * (end.time - middle.time);
+  if (crawls) return lately > seen * size ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
   const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
   return slows ? Course::goes_on : Course::rests;
@@ -123,10 +129,16 @@ double Pieces::times_to_tell(std::size_t piece, const PieceMotions& end) const {
   return std::sqrt(seen * pieces_[piece].size / end.way[piece]);
 }
 
-double Pieces::time_to_tell(double acceleration) const {
+double Pieces::time_to_tell(double acceleration, double damping) const {
   double size = 0;
   for (const FollowedPiece& piece : pieces_) size = std::max(size, piece.size);
-  return std::sqrt(2 * seen * size / acceleration);
+  const double way = seen * size, free = std::sqrt(2 * way / acceleration);
+  if (!(damping * free > 1e-6)) return free;
+  // v' = a − c v from rest: c² x/a = τ − (1 − e^−τ) with τ = c t, convex, so that Newton comes from above.
+  const double due = damping * damping * way / acceleration;
+  double at = due + 1;
+  for (int i = 0; i < 50; ++i) at -= (at + std::expm1(-at) - due) / -std::expm1(-at);
+  return at / damping;
 }
 
 }  // namespace talus

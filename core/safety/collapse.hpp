@@ -22,6 +22,7 @@ struct FollowedPiece {
 /// is when it had settled; and the largest speed of one, m/s.
 struct PieceMotions {
   std::vector<double> moved, way, speed;
+  double time;  ///< s
 };
 
 enum class Course { rests, goes_on, failed, stopped };  ///< the last failed, too, and has come to rest
@@ -48,8 +49,9 @@ class Pieces {
   /// accelerated.
   double times_to_tell(std::size_t piece, const PieceMotions& end) const;
 
-  /// s, after which the widest piece has come far enough to tell, from rest at this acceleration, m/s².
-  double time_to_tell(double acceleration) const;
+  /// s, after which the widest piece has come far enough to tell, from rest under a pull of this
+  /// acceleration, m/s², against mass-proportional damping, 1/s.
+  double time_to_tell(double acceleration, double damping) const;
 
  private:
   /// [vertex] of the parts of all bodies that can fail: its piece and where it was then.

@@ -1,6 +1,7 @@
 #include "safety/safety.hpp"
 
 #include "files/input_error.hpp"
+#include "plugin/parameters.hpp"
 #include "safety/collapse.hpp"
 #include "text/nearest.hpp"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -23,9 +25,9 @@ constexpr double last_look = 4;
 constexpr double jammed = 0.01;  ///< of its width: what comes so far and rests has met something
 
 /// Divides what of these values is strength; returns whether any is.
-bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std::vector<double>& values) {
+bool reduce(std::span<const Parameter> parameters, double factor, std::vector<double>& values) {
   bool reduced = false;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::string_view key = parameters[i].key;
     if (key.ends_with("friction_angle")) {
       reduced = reduced || values[i] > 0;
@@ -37,22 +39,16 @@ bool reduce(const Parameter* parameters, std::uint32_t count, double factor, std
     }
   }
   // Rock that has less friction dilates no more than that allows.
-  const auto value_of = [&](std::string_view key) -> double* {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (key == parameters[i].key) return &values[i];
-    }
-    return nullptr;
-  };
-  const double* const friction = value_of("friction_angle");
-  double* const dilation = value_of("dilation_angle");
-  if (friction != nullptr && dilation != nullptr) *dilation = std::min(*dilation, *friction);
+  const auto friction = index_of(parameters, "friction_angle"),
+             dilation = index_of(parameters, "dilation_angle");
+  if (friction && dilation) values[*dilation] = std::min(values[*dilation], values[*friction]);
   return reduced;
 }
 
 /// The same of a material, which a rigid body has none of.
 bool reduce(Choice& model, double factor) {
   return model.component != nullptr &&
-         reduce(model.component->component->parameters, model.component->component->parameter_count, factor,
+         reduce({model.component->component->parameters, model.component->component->parameter_count}, factor,
                 model.values);
 }
 
@@ -205,22 +201,28 @@ class Reduction {
   double value_of(const std::vector<double>& values, std::string_view key) const {
     if (scene_.contact.component == nullptr) return 0;
     const Component& law = *scene_.contact.component->component;
-    for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
-      if (key == law.interface_parameters[i].key) return values[i];
-    }
-    return 0;
+    const auto index = index_of({law.interface_parameters, law.interface_parameter_count}, key);
+    return index ? values[*index] : 0;
   }
 
-  /// What lacks a share of its strength gains at most that share of gravity.
+  /// What lacks a share of its strength gains at most that share of gravity, and is held up by `damping`.
   void warn_of_short_runs() {
-    const double gravity = std::hypot(scene_.gravity.x, scene_.gravity.y);
+    const double gravity = std::hypot(scene_.gravity.x, scene_.gravity.y), damping = constant_damping();
     if (!(gravity > 0)) return;
-    const double wanted = pieces_->time_to_tell(settings_.tolerance * gravity);
+    const double pull = settings_.tolerance * gravity, wanted = pieces_->time_to_tell(pull, damping);
     if (scene_.time.end >= wanted) return;
+    const bool held_up = scene_.time.end >= pieces_->time_to_tell(pull, 0);
     warnings_.push_back(
         fmt::format("runs of up to {:.3g} s are too short to see a body fail that lacks {:.3g} % of its "
-                    "strength: the factor may be less; give it a /time/end of {:.2g} s at least",
-                    scene_.time.end, 100 * settings_.tolerance, 1.1 * wanted / longest));
+                    "strength{}: the factor may be less; give it a /time/end of {:.2g} s at least{}",
+                    scene_.time.end, 100 * settings_.tolerance,
+                    held_up ? fmt::format(" where /damping of {:.3g} 1/s holds it up", damping) : "",
+                    1.1 * wanted / longest, held_up ? ", or less damping" : ""));
+  }
+
+  /// 1/s, of the run; kinetic damping, which takes velocities at their peaks, holds nothing up for long.
+  double constant_damping() const {
+    return scene_.damping.kind == Damping::Kind::constant ? scene_.damping.constant : 0;
   }
 
   void warn_of_locking(const Simulation& whole) {
@@ -351,7 +353,7 @@ Scene with_reduced_strength(const Scene& scene, double factor) {
   bool any = false;
   if (const RegisteredComponent* law = scene.contact.component; law != nullptr) {
     for (std::vector<double>& row : reduced.interface_values)
-      any = reduce(law->component->interface_parameters, law->component->interface_parameter_count, factor,
+      any = reduce({law->component->interface_parameters, law->component->interface_parameter_count}, factor,
                    row) ||
             any;
   }

@@ -65,8 +65,9 @@ struct Safety {
 /// tell. What counts is how far the vertices of a body, or of what joints cut out of one, have come from that
 /// geometry, along axes along which nothing drives it. It has failed if one moved by more than 1/20 of its
 /// width, of one of many elements of their size where that is less, wherever it stopped, or goes on: in the
-/// run itself by more than 1/1000 of its width, more than 0.45 of it in the second half of the time, and at
-/// the end at more than 0.9 of the speed in the middle. The scene collapses if one has.
+/// run itself by more than 1/1000 of its width, more than 0.45 of it in the second half of the time, or all
+/// of that 1/1000 there at a constant speed, and at the end at more than 0.9 of the speed in the middle. The
+/// scene collapses if one has.
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings);
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "scene/interfaces.hpp"
 
+#include "plugin/parameters.hpp"
 #include "scene/surfaces.hpp"
 #include "scene/tables.hpp"
 #include "text/nearest.hpp"
@@ -289,25 +290,21 @@ void warn(Reading& reading, const ContactSection& contact, const std::set<std::s
 /// Mohr and Coulomb's line ends at cohesion over tan φ; what laws make of a tensile strength beyond it
 /// differs.
 void warn_of_strength(Reading& reading, const Component& law) {
-  const auto position = [&](std::string_view key) {
-    std::uint32_t i = 0;
-    while (i < law.interface_parameter_count && key != law.interface_parameters[i].key) ++i;
-    return i;
-  };
-  const std::uint32_t angle = position("friction_angle"), cohesion = position("cohesion"),
-                      tensile = position("tensile_strength"), none = law.interface_parameter_count;
-  if (angle == none || cohesion == none || tensile == none) return;
+  const std::span<const Parameter> parameters(law.interface_parameters, law.interface_parameter_count);
+  const auto angle = index_of(parameters, "friction_angle"), cohesion = index_of(parameters, "cohesion"),
+             tensile = index_of(parameters, "tensile_strength");
+  if (!angle || !cohesion || !tensile) return;
   constexpr double rounding = 1e-9;
   for (std::size_t row = 0; row < reading.scene.interface_values.size(); ++row) {
     const std::vector<double>& values = reading.scene.interface_values[row];
-    if (values.size() != none ||
-        !(values[tensile] * std::tan(values[angle]) > values[cohesion] * (1 + rounding)))
+    if (values.size() != parameters.size() ||
+        !(values[*tensile] * std::tan(values[*angle]) > values[*cohesion] * (1 + rounding)))
       continue;
     reading.scene.warnings.push_back(fmt::format(
         "/interfaces/{}: a tensile strength of {:.4g} Pa is above cohesion/tan(friction angle), {:.4g} Pa, "
         "where the line of Mohr and Coulomb ends: a law may bear no more than that (cohesive_overlap) or "
         "all of it (vertex_edge)",
-        row, values[tensile], values[cohesion] / std::tan(values[angle])));
+        row, values[*tensile], values[*cohesion] / std::tan(values[*angle])));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -43,6 +45,10 @@ TEST_CASE(
   CHECK(due <= collapses);
   CHECK_THAT(call.out, Contains("failing at ") && Contains("results in results"));
 
+  const nlohmann::json answer = nlohmann::json::parse(read_whole_file(scratch / "results/safety.json"));
+  CHECK(answer.at("stands").get<double>() < answer.at("factor").get<double>());
+  CHECK(answer.at("collapses").get<double>() > answer.at("factor").get<double>());
+  CHECK(answer.at("end") == "finished");
   std::istringstream csv(read_whole_file(scratch / "results/safety.csv"));
   std::string line;
   std::getline(csv, line);
@@ -85,6 +91,8 @@ TEST_CASE("talus safety overwrites nothing unasked, and refuses tolerances that 
           "[apps][safety]") {
   const Scratch scratch;
   std::filesystem::create_directory(scratch / "results");
+  scratch.write("results/safety.json", "mine");
+  CHECK(reduce(scratch, {}).code != 0);
   scratch.write("results/safety.csv", "mine");
   const Call twice = reduce(scratch, {});
   CHECK(twice.code != 0);

@@ -24,13 +24,16 @@ TEST_CASE("A piece that slows down goes on until it rests or has come far", "[sa
                         Case{0.03, 0.1, 0.06, 0.01, Course::failed},      // far
                         Case{0.06, 0.1, 0.06, 0, Course::stopped},        // and then at rest
                         Case{0.0001, 0.1, 0.0002, 0.1, Course::goes_on},  // steady, too little to tell
-                        Case{0.0001, 0.1, 0.00016, 0.05, Course::rests}}) {  // slower, and too little to tell
+                        Case{0.0001, 0.1, 0.00016, 0.05, Course::rests},  // slower, and too little to tell
+                        Case{0.0005, 0.002, 0.0007, 0.002, Course::goes_on},  // steady, after it gave way
+                        Case{0.0100, 0.012, 0.0112, 0.012, Course::failed},   // steady, far since then
+                        Case{0.0005, 0.1, 0.0007, 0.1, Course::rests}}) {     // vibrating
     INFO(c.moved_end << " m, " << c.speed_end << " m/s");
-    CHECK(pieces.course(0, {{c.moved_middle}, {c.moved_middle}, {c.speed_middle}},
-                        {{c.moved_end}, {c.moved_end}, {c.speed_end}}) == c.due);
+    CHECK(pieces.course(0, {{c.moved_middle}, {c.moved_middle}, {c.speed_middle}, 0.1},
+                        {{c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}) == c.due);
     // What it moved while it settled hides nothing, and is far enough by itself.
     if (c.due == Course::failed || c.due == Course::stopped) continue;
-    CHECK(pieces.course(0, {{0.02 + c.moved_middle}, {c.moved_middle}, {c.speed_middle}},
-                        {{0.02 + c.moved_end}, {c.moved_end}, {c.speed_end}}) == c.due);
+    CHECK(pieces.course(0, {{0.02 + c.moved_middle}, {c.moved_middle}, {c.speed_middle}, 0.1},
+                        {{0.02 + c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}) == c.due);
   }
 }

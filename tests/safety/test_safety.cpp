@@ -301,6 +301,18 @@ TEST_CASE("What slides at a steady speed has failed", "[safety]") {
     CHECK(factor_of(on_a_plane(1, {{"/damping", damping}})) == Approx(on_a_plane_due).epsilon(0.015));
 }
 
+TEST_CASE("A factor that damping makes too high says so, and for how long to run", "[safety]") {
+  const auto told = [](const char* damping) {
+    const Safety safety =
+        factor_of_safety(on_a_plane(1, {{"/damping", damping}, {"/interfaces/0/friction_angle", "30"}}), {});
+    return std::ranges::count_if(safety.warnings, [](const std::string& warning) {
+      return warning.starts_with("runs of up to") && warning.find("where /damping") != std::string::npos;
+    });
+  };
+  CHECK(told("1") == 0);
+  CHECK(told("1e4") == 1);
+}
+
 TEST_CASE("A factor depends neither on the size of a block nor on the time it is given", "[safety]") {
   CHECK(factor_of(on_a_plane(50)) == Approx(on_a_plane_due).epsilon(0.015));
   CHECK(factor_of(on_a_plane(1, {{"/time/end", "0.05"}})) == Approx(on_a_plane_due).epsilon(0.015));
