@@ -5,11 +5,11 @@
 #include "exit_code.hpp"
 #include "files/folder_lock.hpp"
 #include "files/hash.hpp"
-#include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "interrupt.hpp"
 #include "output/history.hpp"
 #include "output/output_folder.hpp"
+#include "output/records.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 #include "scene/read.hpp"
@@ -21,7 +21,7 @@
 #include <algorithm>
 #include <deque>
 #include <set>
-#include <thread>
+#include <span>
 
 namespace talus {
 
@@ -30,10 +30,9 @@ namespace {
 namespace po = boost::program_options;
 
 /// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
-/// Returns the warnings, each of which was told once.
-std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& given, const SceneFile& source,
-                                  std::deque<Registry>& registries, ComparisonOrder& order, const Log& log) {
-  std::set<std::string> warnings;
+void read_scenes(const Usage& usage, const po::variables_map& given, const SceneFile& source,
+                 std::deque<Registry>& registries, ComparisonOrder& order, const Log& log) {
+  std::set<std::string> told;
   for (const std::string& value : order.variation.values) {
     std::vector<Override> overrides = order.overrides;
     overrides.push_back({order.variation.pointer, value});
@@ -47,25 +46,20 @@ std::set<std::string> read_scenes(const Usage& usage, const po::variables_map& g
       throw;
     }
     for (const std::string& warning : order.scenes.back().warnings) {
-      if (warnings.insert(warning).second) log.warning(warning);
+      if (told.insert(warning).second) log.warning(warning);
     }
   }
-  return warnings;
 }
 
 /// Folders of an earlier comparison that this one does not write anew, as its table tells them.
 std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) {
   std::vector<std::filesystem::path> left_over;
-  const std::filesystem::path file = order.folder / "compare.json";
-  if (!std::filesystem::exists(file)) return left_over;
-  const auto table = nlohmann::json::parse(read_whole_file(file), nullptr, /*allow_exceptions=*/false);
-  if (!table.is_object() || !table.contains("runs") || !table["runs"].is_array()) return left_over;
+  const auto before = comparison_record_in(order.folder);
+  if (!before) return left_over;
   std::set<std::string> kept;
   for (const std::string& value : order.variation.values) kept.insert(folder_of_value(value));
-  for (const auto& run : table["runs"]) {
-    const auto value = run.is_object() ? run.find("value") : run.end();
-    if (value == run.end() || !value->is_string()) continue;
-    const std::string name = folder_of_value(value->get<std::string>());
+  for (const auto& run : before->at("runs")) {
+    const std::string name = folder_of_value(run.at("value").get<std::string>());
     if (!kept.contains(name)) left_over.push_back(order.folder / name);
   }
   return left_over;
@@ -81,13 +75,10 @@ int code_of(const Comparison& comparison) {
   return comparison.tolerances_held() ? exit_code::ok : exit_code::tolerance_broken;
 }
 
-void tell_troubles(const Comparison& comparison, const std::filesystem::path& folder,
-                   const std::set<std::string>& told, const Log& log) {
+void tell_troubles(const Comparison& comparison, const std::filesystem::path& folder, const Log& log) {
   for (const std::string& warning : comparison.warnings) log.warning(warning);
   for (const ComparedRun& run : comparison.runs) {
-    for (const std::string& warning : run.result.summary.warnings) {
-      if (!told.contains(warning)) log.warning(run.value + ": " + warning);
-    }
+    for (const std::string& warning : run.result.summary.warnings) log.warning(run.value + ": " + warning);
     if (run.result.end == RunEnd::stopped) log.error(run.value + ": " + run.result.trouble);
     if (run.result.end == RunEnd::interrupted) {
       log.info("interrupted", fmt::format("{}: interrupted at {}; results so far are in {}", run.value,
@@ -142,17 +133,13 @@ int compare_command(const Words& words) {
   ComparisonOrder order;
   order.variation = parse_variation(text_option(*given, "vary"));
   order.overrides = overrides_of(usage, *given);
-  order.threads =
-      threads_of(usage, *given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  order.threads = threads_of(usage, *given, cores());
   order.neighbour_skin = given->count("no-skin") == 0;
   if (given->count("at") != 0) order.moments = (*given)["at"].as<std::vector<double>>();
   const SceneFile source = scene_file_of(*given);
-  const std::filesystem::path& file = source.file;
-  const std::string out = text_option(*given, "out");
-  order.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-compare")
-                             : std::filesystem::path(out);
+  order.folder = output_folder(*given, source, "-compare");
   std::deque<Registry> registries;
-  const std::set<std::string> told = read_scenes(usage, *given, source, registries, order, log);
+  read_scenes(usage, *given, source, registries, order, log);
   order.scene_hash = hash_of_bytes(source.text);
   std::vector<std::filesystem::path> read;
   for (const Scene& scene : order.scenes) {
@@ -169,16 +156,19 @@ int compare_command(const Words& words) {
   Comparison comparison = planned(order);
   const bool overwrite = given->count("overwrite") != 0;
   const std::vector<std::filesystem::path> left_over = runs_left_over(order);
+  std::vector<std::filesystem::path> folders{order.folder};
+  for (const std::string& value : order.variation.values)
+    folders.push_back(order.folder / folder_of_value(value));
+  for (const std::filesystem::path& folder : folders) refuse_output_folder(folder, overwrite, read);
   prepare_output_folder(order.folder, overwrite, read);
   const FolderLock mine(order.folder);
-  for (const std::string& value : order.variation.values) {
-    prepare_output_folder(order.folder / folder_of_value(value), overwrite, read);
-  }
+  for (const std::filesystem::path& folder : std::span(folders).subspan(1))
+    prepare_output_folder(folder, overwrite, read);
   for (const std::filesystem::path& run : left_over) remove_run(run, read);
 
   order.interrupted = watch_for_interrupts();
   log.info("started", "",
-           {{"scene", file.string()},
+           {{"scene", source.file.string()},
             {"folder", order.folder.string()},
             {"vary", text_option(*given, "vary")},
             {"threads", order.threads},
@@ -192,7 +182,7 @@ int compare_command(const Words& words) {
   write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
   write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
   if (given->count("no-report") == 0) write_report(order.folder);
-  tell_troubles(comparison, order.folder, told, log);
+  tell_troubles(comparison, order.folder, log);
   if (log.in_json())
     log.info("compared", "", {{"folder", order.folder.string()}, {"exit_code", code_of(comparison)}});
   fmt::print("{}\nresults in {}\n", comparison_table(order, comparison), order.folder.string());

@@ -8,9 +8,15 @@ namespace talus {
 
 /// Makes the folder that results go to. One that holds results already, or that another run writes into, is
 /// refused (InputError); with `overwrite` it is cleared of results: of files that talus writes, never of
-/// others, and none of those that were `read` to make the results. Runs of a study stay; its tables do not.
+/// others. Refused is, too, what would take away a file that was `read` to make the results. Runs of a study
+/// stay; its tables do not.
 void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
                            const std::vector<std::filesystem::path>& read = {});
+
+/// The first half of it, for those who prepare several folders and would lose the results of one to what
+/// another is refused for: refuses, and returns the results that would be cleared.
+std::vector<std::filesystem::path> refuse_output_folder(const std::filesystem::path& folder, bool overwrite,
+                                                        const std::vector<std::filesystem::path>& read = {});
 
 /// Makes the folder that results of many runs go to, each in a folder of its own. One that holds results of a
 /// single run is refused (InputError), and one where a file of results would take the place of one that was

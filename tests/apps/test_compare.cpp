@@ -227,6 +227,50 @@ TEST_CASE("a comparison keeps the reference it was made with, and overwrites no 
   CHECK(read_whole_file(scratch / "mine/compare_reference.csv") == "mine");
 }
 
+TEST_CASE("a comparison that would replace its own reference removes no results", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b", "--out", "c"}).code ==
+      0);
+  const Call call = call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b", "--out",
+                                                  "c", "--overwrite", "--reference", "c/b/history.csv"});
+  CHECK(call.code == 2);
+  CHECK_THAT(call.err, Contains("'c/b/history.csv' is read to make the results"));
+  for (const char* file :
+       {"c/compare.csv", "c/compare.json", "c/a/history.csv", "c/a/run.json", "c/b/history.csv"})
+    CHECK(std::filesystem::exists(scratch / file));
+}
+
+TEST_CASE("a warning of the scene is told once, and stands once in each record", "[apps][compare]") {
+  const Scratch scratch;
+  const std::string row = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 9,
+                            "normal_damping": 0, "tangential_damping": 0)";
+  const std::string twice = fmt::format(
+      R"(/interfaces=[{{"between": ["rock", "rock"], {0}}}, {{"between": ["rock", "*"], {0}}}])", row);
+  scratch.write("small.json", scene_with(R"("settle": {"duration": 0.01, "damping": 10})"));
+  const auto times = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find("never applies"); at != std::string::npos;
+         at = text.find("never applies", at + 1))
+      ++count;
+    return count;
+  };
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "small.json", "--out", "r"},
+        {"compare", "small.json", "--vary", "/title=a,b", "--out", "c"},
+        {"safety", "small.json", "--out", "s"},
+        {"validate", "small.json"}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--set", twice, "--set", "/time/end=0.02"});
+    const Call call = call_talus(scratch.folder(), all);
+    INFO(words[0] << call.out << call.err);
+    CHECK(times(call.out + call.err) == 1);
+  }
+  for (const char* record : {"r/run.json", "c/a/run.json", "c/b/run.json", "s/safety.json"})
+    CHECK(times(read_whole_file(scratch / record)) == 1);
+}
+
 TEST_CASE("a broken tolerance has its own exit code", "[apps][compare]") {
   const Scratch scratch;
   scratch.write("small.json", scene_with("\"tolerances\": [{\"monitor\": \"block\", \"quantity\": \"uy\", "
