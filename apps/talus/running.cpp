@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace talus {
 namespace {
 
@@ -162,10 +160,7 @@ int conduct(Simulation& simulation, RunOrder& order, const po::variables_map& gi
   progress.clear();
   if (report) write_report(order.folder);
 
-  for (const std::string& warning : result.summary.warnings) {
-    const auto& told = scene.warnings;  // when the scene was read
-    if (std::find(told.begin(), told.end(), warning) == told.end()) log.warning(warning);
-  }
+  for (const std::string& warning : result.summary.warnings) log.warning(warning);
   say_how_it_ended(result, order, log);
   if (result.end != RunEnd::stopped && log.in_json())
     log.info(name_of(result.end), "", facts_of(result, order.folder));

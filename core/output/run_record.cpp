@@ -130,9 +130,7 @@ std::vector<Checkpoint::UsedLibrary> hashed_libraries(const Scene& scene) {
 std::string run_record(const Scene& scene, const RunOrder& order, const RunResult& result) {
   const RunSummary& summary = result.summary;
   std::vector<std::string> warnings = scene.warnings;
-  for (const std::string& warning : summary.warnings) {
-    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
-  }
+  warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
   Json record;
   record["talus"] = TALUS_VERSION;
   record["end"] = name_of(result.end);

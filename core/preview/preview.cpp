@@ -19,7 +19,7 @@ namespace {
 void measure_edges(const Scene& scene, Preview& preview) {
   preview.smallest_edge = std::numeric_limits<double>::infinity();
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    const auto measure = [&](const Loop& loop) {
+    each_loop(scene.bodies[body], [&](const Loop& loop) {
       for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
         const Vec2 from = loop.vertices[i], to = loop.vertices[(i + 1) % loop.vertices.size()];
         const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -27,9 +27,7 @@ void measure_edges(const Scene& scene, Preview& preview) {
         preview.smallest_edge = length;
         preview.smallest_edge_body = body;
       }
-    };
-    measure(scene.bodies[body].outer);
-    for (const Loop& hole : scene.bodies[body].holes) measure(hole);
+    });
   }
 }
 
@@ -184,6 +182,7 @@ Preview preview(Simulation& simulation, double trial_seconds) {
   const double unhindered =
       scene.time.dt.value_or(automatic_step(simulation.present_bound(), scene.time.safety));
   if (scene.settle) preview.settle_steps = std::max(1.0, std::ceil(scene.settle->duration / unhindered));
+  preview.warnings.insert(preview.warnings.end(), scene.warnings.begin(), scene.warnings.end());
   preview.warnings.insert(preview.warnings.end(), summary.warnings.begin(), summary.warnings.end());
   const std::vector<std::string> raised = review(scene, unhindered);
   preview.warnings.insert(preview.warnings.end(), raised.begin(), raised.end());

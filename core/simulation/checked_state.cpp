@@ -218,9 +218,13 @@ void Simulation::State::check_balance() {
                               : "";
   const std::string otherwise =
       cause.empty() ? "" : fmt::format("; {}{}", small_step ? "" : "where that changes nothing, ", cause);
+  // The work of dashpots is booked to the first order in the step where contacts move along bodies.
+  const bool dashpots =
+      ledger.ledger().contact_damping_loss > scene.limits.energy_residual * ledger.ledger().throughput;
   const char* const advice = small_step       ? "hardly the step"
-                             : law != nullptr ? "take a smaller one, or damp the contacts"
-                                              : "take a smaller one";
+                             : law == nullptr ? "take a smaller one"
+                             : dashpots       ? "take a smaller one in /time/dt, or less normal_damping"
+                                              : "take a smaller one, or damp the contacts";
   throw NumericalTrouble(
       fmt::format("the energy balance is lost at t = {:.9g} s: residual {:.3g} J/m is {:.2g} % of the "
                   "throughput {:.3g} J/m, the limit is {:.2g} %{}; the step is {:.3g} s, {:.2g} of the "
@@ -293,18 +297,19 @@ void Simulation::State::warn_of_settlement() {
 
 /// At output times, once in a run: check_step() knows how deep contact sees half of a body's sides alone.
 void Simulation::State::warn_of_thin_ground() {
-  if (model.covered_bodies.empty()) return;
-  constexpr const char* met = "is met deeper than contact sees it";
-  const auto tells = [&](const std::string& warning) { return warning.find(met) != std::string::npos; };
-  if (std::any_of(summary.warnings.begin(), summary.warnings.end(), tells)) return;
+  if (model.covered_bodies.empty() || told_of_thin_ground) return;
   const std::optional<ThinGround> found = find_thin_ground(model, motion, contacts);
   if (!found) return;
+  told_of_thin_ground = true;
   const std::string by = found->other == found->body ? "another part of itself"
                                                      : fmt::format("'{}'", scene.bodies[found->other].name);
   summary.warnings.push_back(fmt::format(
-      "'{}' {} by {} at {} m, t = {:.6g} s: it is thin there, and its surface pushes to a "
-      "depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin part a body of its own",
-      scene.bodies[found->body].name, met, by, place_from(scene.origin, found->place), time, found->depth));
+      "'{}' is met deeper than contact sees it by {} at {} m, t = {:.6g} s: it is thin there, and its "
+      "surface "
+      "pushes to a depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin part a "
+      "body "
+      "of its own",
+      scene.bodies[found->body].name, by, place_from(scene.origin, found->place), time, found->depth));
 }
 
 }  // namespace talus

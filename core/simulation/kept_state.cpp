@@ -74,6 +74,7 @@ void Simulation::State::exchange_books(Archive& archive) {
   archive(summary.largest_penetration);
   archive(summary.largest_residual_share);
   archive(summary.warnings);
+  archive(told_of_thin_ground);
   const std::size_t bodies = model.bodies.size();
   if (deepest_pair.first >= bodies || deepest_pair.second >= bodies || contact_totals.deepest_a >= bodies ||
       contact_totals.deepest_b >= bodies || critical.body >= bodies || critical.spring_body >= bodies)
