@@ -172,8 +172,14 @@ int new_plugin_command(const Words& words) {
         fmt::format("'{}' is in the way: nothing was written; move it, or take another NAME or --out DIR",
                     unfinished.string()));
   }
-  write_files(unfinished, kind, name);
-  fs::rename(unfinished, folder);
+  try {
+    write_files(unfinished, kind, name);
+    fs::rename(unfinished, folder);
+  } catch (...) {
+    std::error_code stays;
+    fs::remove_all(unfinished, stays);
+    throw;
+  }
   const std::string from = shell_word(folder.string()), build = shell_word((folder / "build").string());
   fmt::print(
       "{} {} in {}\n"

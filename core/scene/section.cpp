@@ -66,14 +66,11 @@ std::string expectation(const Parameter& parameter) {
 }
 
 std::string shown(const Json& value) {
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() <= 60) return text;
   if (value.is_object()) return fmt::format("an object of {} keys", value.size());
   if (value.is_array()) return fmt::format("a list of {} entries", value.size());
-  text.resize(57);
-  while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u) text.pop_back();
-  if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0u) text.pop_back();
-  return text + "...";
+  return clipped(text, 57);
 }
 
 OrderedJson plain(double value) {

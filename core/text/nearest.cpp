@@ -1,5 +1,7 @@
 #include "text/nearest.hpp"
 
+#include "text/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,10 +62,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::string clipped(const std::string& text, std::size_t longest) {
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // within a character
-  return text.substr(0, end) + "...";
+  return text.size() <= longest ? text : std::string(beginning_of(text, longest)) + "...";
 }
 
 std::string listed(const std::vector<std::string>& names) {

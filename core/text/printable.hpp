@@ -26,9 +26,16 @@ inline bool printable(std::string_view name) {
   return true;
 }
 
+/// The first bytes of UTF-8, at most so many, not ending within a character.
+inline std::string_view beginning_of(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xC0u) == 0x80u) --longest;
+  return text.substr(0, longest);
+}
+
 /// A word of a file as it may be shown.
 inline std::string shown(std::string_view word) {
-  const std::string_view start = word.substr(0, 40);
+  const std::string_view start = beginning_of(word, 40);
   return printable(start) ? fmt::format("'{}'", start) : "something that is no text";
 }
 

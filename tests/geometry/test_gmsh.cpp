@@ -220,6 +220,9 @@ TEST_CASE("a file that is no text mesh of a known version is refused by file and
   CHECK_THAT(refusal(with(square_2, "2.2 0 8", "2.2 1 8")), Catch::StartsWith("a.msh:2: the mesh is binary"));
   CHECK_THAT(refusal(format_2), Catch::StartsWith("a.msh: there are no triangles"));
   CHECK_THAT(refusal(std::string("\x01\xff\xfe\n", 4)), Catch::Contains("something that is no text stands"));
+  std::string long_word = "a";
+  for (int i = 0; i < 26; ++i) long_word += "é";
+  CHECK_THAT(refusal(long_word + "\n"), Catch::Contains("'" + long_word.substr(0, 39) + "' stands"));
 }
 
 TEST_CASE("a broken mesh file is refused by file and line", "[geometry][gmsh]") {
