@@ -1,13 +1,13 @@
 #pragma once
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "contact/contact_slots.hpp"
-#include "contact/contact_totals.hpp"
 #include "contact/law_fault.hpp"
 #include "contact/neighbours.hpp"
 #include "contact/room.hpp"
 #include "contact/wave_loads.hpp"
 #include "kernels/blocks.hpp"
+#include "kernels/contact_totals.hpp"
 #include "kernels/contacts.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"

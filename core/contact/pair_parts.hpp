@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/contact_totals.hpp"
+
 #include <talus/contact_model.hpp>
 
 #include <cstddef>
@@ -8,10 +10,6 @@
 #include <vector>
 
 namespace talus {
-
-/// Pairs whose energies are added up before those of others, at most. All larger parts are made of such
-/// chunks, so no sum shows how large they are.
-inline constexpr std::size_t pair_chunk = 64;
 
 /// How pairs are shared out.
 struct PairSharing {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "contact/contact_totals.hpp"
-#include "contact/pair_parts.hpp"
+#include "kernels/contact_totals.hpp"
 #include "model/motion.hpp"
 
 #include <talus/contact_model.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "output/vtu.hpp"
 #include "simulation/simulation.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
-#include "output/quantity.hpp"
+#include "output/sampled.hpp"
 #include "text/nearest.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,8 @@ std::vector<double> sample_monitors(const Simulation& simulation) {
     Sampled sampled{simulation.monitor_motion(number), scene.origin};
     if (sees_contacts(monitor))
       sampled.contact = contact_sum(contacts, monitor.body, sampled.motion.position);
-    for (const std::string& name : monitor.quantities) values.push_back(find_quantity(name)->value(sampled));
+    for (const std::string& name : monitor.quantities)
+      values.push_back(value_of(find_quantity(name)->what, sampled));
   }
   return values;
 }

@@ -1,6 +1,6 @@
 #include "scene/monitors.hpp"
 
-#include "output/quantity.hpp"
+#include "scene/quantity.hpp"
 #include "scene/tables.hpp"
 #include "text/nearest.hpp"
 

@@ -1,8 +1,8 @@
 #include "schema/parts.hpp"
 
-#include "output/quantity.hpp"
 #include "scene/components.hpp"
 #include "scene/parameter_text.hpp"
+#include "scene/quantity.hpp"
 #include "scene/tables.hpp"
 #include "schema/shapes.hpp"
 

@@ -1,7 +1,7 @@
 #include "schema/reference.hpp"
 
 #include "output/marked_tables.hpp"
-#include "output/quantity.hpp"
+#include "scene/quantity.hpp"
 
 #include <fmt/format.h>
 

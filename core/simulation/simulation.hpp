@@ -1,6 +1,6 @@
 #pragma once
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "scene/scene.hpp"
 #include "simulation/profile.hpp"
 #include "simulation/time_step.hpp"

@@ -1,4 +1,4 @@
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "verification/case.hpp"
 #include "verification/course.hpp"
 #include "verification/transform.hpp"

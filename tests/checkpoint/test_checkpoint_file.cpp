@@ -1,4 +1,4 @@
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "files/hash.hpp"
 #include "files/input_error.hpp"

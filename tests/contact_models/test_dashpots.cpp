@@ -1,5 +1,5 @@
 // Dashpots along the normal of a contact.
-#include "output/quantity.hpp"
+#include "output/sampled.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>

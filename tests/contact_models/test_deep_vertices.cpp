@@ -1,5 +1,5 @@
 // Vertices of `vertex_edge` that sink into another body: what pushes them back grows without a jump.
-#include "output/quantity.hpp"
+#include "output/sampled.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Contacts on both faces of a reflex corner, of one body or of two.
-#include "output/quantity.hpp"
+#include "output/sampled.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "diagnosis/diagnosis.hpp"
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "targets.hpp"
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "files/hash.hpp"
 #include "files/input_error.hpp"

@@ -1,5 +1,5 @@
 #include "output/history.hpp"
-#include "output/quantity.hpp"
+#include "output/sampled.hpp"
 #include "simulation/working_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 
 #include "files/input_error.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace talus {
@@ -10,5 +11,9 @@ struct ContactTotals {
   double penetration = 0;
   std::uint32_t deepest_a = 0, deepest_b = 0;  ///< bodies of the deepest overlap
 };
+
+/// Pairs whose energies are added up before those of others, at most. All larger parts are made of such
+/// chunks, so no sum shows how large they are.
+inline constexpr std::size_t pair_chunk = 64;
 
 }  // namespace talus

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "scene/quantity.hpp"
 #include "simulation/simulation.hpp"
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 namespace talus {
 
@@ -24,22 +24,7 @@ struct Sampled {
   ContactSum contact{};  ///< where a quantity is of contacts
 };
 
-/// Something a monitor can record of a body or of a point of it.
-struct Quantity {
-  const char* name;  ///< as in "quantities" of a monitor
-  const char* unit;  ///< as it is written
-  double (*value)(const Sampled& sampled);
-  const char* sentence;
-  enum class Of { motion, stress, contacts } of = Of::motion;
-};
-
-std::span<const Quantity> quantities();
-
-/// nullptr if there is none of that name.
-const Quantity* find_quantity(std::string_view name);
-
-/// Whether it records a quantity of contacts, of stress.
-bool sees_contacts(const Monitor& monitor);
-bool sees_stress(const Monitor& monitor);
+/// In the unit of the quantity.
+double value_of(Quantity::What what, const Sampled& sampled);
 
 }  // namespace talus
