@@ -1,6 +1,5 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "files/hash.hpp"
 #include "kept_run.hpp"
 #include "running.hpp"
 #include "scene_options.hpp"

@@ -1,7 +1,6 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "files/hash.hpp"
-#include "files/whole_file.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
 #include "running.hpp"
@@ -71,8 +70,7 @@ int run_command(const Words& words) {
   Registry registry = offered_registry(usage, *given);
   const SceneFile source = scene_file_of(*given);
   const std::filesystem::path& file = source.file;
-  const std::string out = text_option(*given, "out");
-  order.folder = out.empty() ? std::filesystem::path("out") / file.stem() : std::filesystem::path(out);
+  order.folder = output_folder(*given, source);
 
   Scene read = read_scene_of(source, registry, order.overrides, given->count("allow-plugins") != 0, log);
   for (const std::string& warning : read.warnings) log.warning(warning);

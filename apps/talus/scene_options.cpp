@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <thread>
 
 namespace talus {
 
@@ -113,6 +114,17 @@ std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& 
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return overrides;
+}
+
+std::filesystem::path output_folder(const po::variables_map& given, const SceneFile& scene,
+                                    const std::string& suffix) {
+  const std::string out = text_option(given, "out");
+  return out.empty() ? std::filesystem::path("out") / (scene.file.stem().string() + suffix)
+                     : std::filesystem::path(out);
+}
+
+int cores() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 int threads_of(const Usage& usage, const po::variables_map& given, int fallback) {

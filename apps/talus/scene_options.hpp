@@ -45,6 +45,13 @@ void refuse_to_replace_what_is_read(const Scene& scene, const std::filesystem::p
 /// The overrides of --set.
 std::vector<Override> overrides_of(const Usage& usage, const boost::program_options::variables_map& given);
 
+/// --out, or out/<name of the scene's file> and the suffix.
+std::filesystem::path output_folder(const boost::program_options::variables_map& given,
+                                    const SceneFile& scene, const std::string& suffix = "");
+
+/// How many threads the machine runs at once, at least 1.
+int cores();
+
 /// --threads; `fallback` if it is not given.
 int threads_of(const Usage& usage, const boost::program_options::variables_map& given, int fallback);
 

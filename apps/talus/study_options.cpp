@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 #include <utility>
 
 namespace talus {
@@ -136,11 +135,8 @@ StudyPlan plan_of(const Usage& usage, const po::variables_map& given) {
 
 Study make_study(const Usage& usage, const po::variables_map& given, const std::vector<std::string>& words,
                  const StudyPlan& plan, const SceneFile& source) {
-  const std::filesystem::path& file = source.file;
-  const std::string out = text_option(given, "out");
   Study study;
-  study.folder = out.empty() ? std::filesystem::path("out") / (file.stem().string() + "-" + usage.command)
-                             : std::filesystem::path(out);
+  study.folder = output_folder(given, source, "-" + usage.command);
   const bool allow_plugins = given.count("allow-plugins") != 0;
 
   StudyOrder order;
@@ -150,8 +146,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   order.reference = here_or_shipped(text_option(given, "reference"));
   order.overrides = overrides_of(usage, given);
   order.scene_hash = hash_of_bytes(source.text);
-  order.threads =
-      threads_of(usage, given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  order.threads = threads_of(usage, given, cores());
   order.times = given["repeat"].as<int>();
   if (order.times < 1 || order.times > 1000)
     throw UsageError(usage.command, fmt::format("--repeat {}: allowed are 1 to 1000", order.times));
@@ -194,7 +189,7 @@ Study make_study(const Usage& usage, const po::variables_map& given, const std::
   write_whole_file(study.folder / "study.csv", study_csv(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.json", study_json(plan, study.runs, study.findings));
   write_whole_file(study.folder / "study.svg", study_svg(plan, study.runs, study.findings));
-  const std::string& title = plain.scene.title.empty() ? file.filename().string() : plain.scene.title;
+  const std::string& title = plain.scene.title.empty() ? source.file.filename().string() : plain.scene.title;
   write_whole_file(study.folder / "study.html",
                    study_page(title, command_of(usage, words), plan, study.runs, study.findings));
   return study;

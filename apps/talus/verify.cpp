@@ -10,9 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <thread>
-
 namespace talus {
 
 namespace {
@@ -78,8 +75,7 @@ int verify_command(const Words& words) {
   }
   const std::string document = text_option(*given, "into");
   const std::string before = document.empty() ? std::string() : read_whole_file(document);
-  order.threads =
-      threads_of(usage, *given, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  order.threads = threads_of(usage, *given, cores());
   order.interrupted = watch_for_interrupts();
   const bool in_markdown = given->count("markdown") != 0;
   Progress progress({}, given->count("quiet") != 0);

@@ -3,16 +3,15 @@
 
 #include "files/input_error.hpp"
 #include "output/history.hpp"
+#include "parallel/tasks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <exception>
 #include <future>
 #include <mutex>
-#include <thread>
 
 namespace talus {
 
@@ -23,12 +22,10 @@ std::vector<Vec2> vertices_of(const Simulation& simulation) {
   std::vector<Vec2> positions;
   const Scene& scene = simulation.scene();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto add_loop = [&](const Loop& loop) {
+    each_loop(scene.bodies[i], [&](const Loop& loop) {
       for (const Vec2 vertex : loop.vertices)
         positions.push_back(simulation.point_motion(i, vertex).position);
-    };
-    add_loop(scene.bodies[i].outer);
-    for (const Loop& hole : scene.bodies[i].holes) add_loop(hole);
+    });
   }
   return positions;
 }
@@ -49,21 +46,13 @@ class SideBySide {
       : order_(order),
         comparison_(comparison),
         settled_(order.scenes.size()),
-        shares_(order.scenes.size(), 0.0),
-        problems_(order.scenes.size()) {}
+        shares_(order.scenes.size(), 0.0) {}
 
   void run() {
-    const std::size_t workers =
-        std::min<std::size_t>(static_cast<std::size_t>(std::max(order_.threads, 1)), order_.scenes.size());
-    {
-      std::vector<std::jthread> threads;
-      for (std::size_t i = 0; i < workers; ++i) {
-        threads.emplace_back([this] { work(); });
-      }
-    }
-    for (const std::exception_ptr& problem : problems_) {
-      if (problem) std::rethrow_exception(problem);
-    }
+    do_tasks(order_.scenes.size(), order_.threads, [this](std::size_t i) {
+      if (i == 0) baseline_geometry_.set_value(settle_baseline());
+      make_run(i);
+    });
     for (std::size_t i = 0; i < order_.scenes.size(); ++i) {
       if (!settled_[0].empty())
         comparison_.runs[i].settled_difference = largest_distance(settled_[0], settled_[i]);
@@ -72,17 +61,6 @@ class SideBySide {
   }
 
  private:
-  void work() {
-    for (std::size_t i = next_++; i < order_.scenes.size(); i = next_++) {
-      try {
-        if (i == 0) baseline_geometry_.set_value(settle_baseline());
-        make_run(i);
-      } catch (...) {
-        problems_[i] = std::current_exception();
-      }
-    }
-  }
-
   /// Nothing where there is none to hand on, or it comes to trouble, which its run will meet again and
   /// record.
   std::optional<Geometry> settle_baseline() {
@@ -148,8 +126,6 @@ class SideBySide {
   Comparison& comparison_;
   std::vector<std::vector<Vec2>> settled_;  ///< [run][vertex]
   std::vector<double> shares_;              ///< [run] of the simulated time
-  std::vector<std::exception_ptr> problems_;
-  std::atomic<std::size_t> next_ = 0;
   std::promise<std::optional<Geometry>> baseline_geometry_;
   std::shared_future<std::optional<Geometry>> geometry_ = baseline_geometry_.get_future().share();
   std::mutex mutex_;

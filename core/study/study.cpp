@@ -7,17 +7,16 @@
 #include "output/recorded_run.hpp"
 #include "output/records.hpp"
 #include "output/run_record.hpp"
+#include "parallel/tasks.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <thread>
 
 namespace talus {
 namespace {
@@ -144,8 +143,7 @@ std::string folder_name(std::size_t run, int time) {
 
 class Runs {
  public:
-  explicit Runs(const StudyOrder& order)
-      : order_(order), runs_(order.plan.points.size()), problems_(order.plan.points.size()) {}
+  explicit Runs(const StudyOrder& order) : order_(order), runs_(order.plan.points.size()) {}
 
   std::vector<StudyRun> make() {
     if (order_.overwrite) {
@@ -153,13 +151,9 @@ class Runs {
     } else {
       refuse_other_runs();
     }
-    {
-      std::vector<std::jthread> threads;
-      for (int i = 0; i < std::max(1, order_.threads); ++i) threads.emplace_back([this] { work(); });
-    }
-    for (const std::exception_ptr& problem : problems_) {
-      if (problem) std::rethrow_exception(problem);
-    }
+    // All runs once, then all once more: what disturbs the machine for a while disturbs one time of each.
+    const std::size_t all = runs_.size() * static_cast<std::size_t>(std::max(1, order_.times));
+    do_tasks(all, order_.threads, [&](std::size_t i) { make_one(i, all); });
     for (StudyRun& run : runs_) {
       if (!run.cpu_of_each.empty()) run.cpu = median(run.cpu_of_each);
     }
@@ -216,20 +210,12 @@ class Runs {
 
   bool interrupted() const { return order_.interrupted != nullptr && *order_.interrupted; }
 
-  /// All runs once, then all once more: what disturbs the machine for a while disturbs one time of each.
-  void work() {
-    const std::size_t all = runs_.size() * static_cast<std::size_t>(std::max(1, order_.times));
-    for (std::size_t i = next_++; i < all && !interrupted(); i = next_++) {
-      const std::size_t number = i % runs_.size();
-      try {
-        take(number, run_of(number, static_cast<int>(i / runs_.size())));
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        problems_[number] = std::current_exception();
-      }
-      const std::lock_guard lock(mutex_);
-      if (order_.progress) order_.progress(++done_, all);
-    }
+  void make_one(std::size_t i, std::size_t all) {
+    if (interrupted()) return;
+    const std::size_t number = i % runs_.size();
+    take(number, run_of(number, static_cast<int>(i / runs_.size())));
+    const std::lock_guard lock(mutex_);
+    if (order_.progress) order_.progress(++done_, all);
   }
 
   /// What times of a run differ in is their cost.
@@ -300,9 +286,7 @@ class Runs {
 
   const StudyOrder& order_;
   std::vector<StudyRun> runs_;
-  std::vector<std::exception_ptr> problems_;
   std::map<std::string, std::string> files_;  ///< that scenes name, and their hashes when first read
-  std::atomic<std::size_t> next_ = 0;
   std::size_t done_ = 0;
   std::mutex mutex_;
 };

@@ -1,10 +1,11 @@
 #include "verification/verify.hpp"
 
+#include "parallel/tasks.hpp"
+
 #include <algorithm>
 #include <exception>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 namespace talus::verification {
 namespace {
@@ -35,25 +36,21 @@ class Verification {
   }
 
   std::vector<CaseResult> make() {
-    {
-      std::vector<std::jthread> threads;
-      for (int i = 0; i < std::max(1, order_.threads); ++i) threads.emplace_back([this] { work(); });
-    }
+    do_tasks(next_of_.size(), order_.threads, [this](std::size_t i) { measure(next_of_[i]); });
     return std::move(results_);
   }
 
  private:
   bool interrupted() const { return order_.interrupted != nullptr && *order_.interrupted; }
 
-  void work() {
-    for (std::size_t i = next_++; i < next_of_.size() && !interrupted(); i = next_++) {
-      CaseResult result = result_of(*order_.cases[next_of_[i]], bench_);
-      const std::lock_guard lock(mutex_);
-      results_[next_of_[i]] = std::move(result);
-      if (order_.progress) order_.progress(++done_);
-      for (; told_ < results_.size() && results_[told_].done; ++told_) {
-        if (order_.finished) order_.finished(results_[told_]);
-      }
+  void measure(std::size_t number) {
+    if (interrupted()) return;
+    CaseResult result = result_of(*order_.cases[number], bench_);
+    const std::lock_guard lock(mutex_);
+    results_[number] = std::move(result);
+    if (order_.progress) order_.progress(++done_);
+    for (; told_ < results_.size() && results_[told_].done; ++told_) {
+      if (order_.finished) order_.finished(results_[told_]);
     }
   }
 
@@ -61,7 +58,6 @@ class Verification {
   const VerifyOrder& order_;
   std::vector<CaseResult> results_;
   std::vector<std::size_t> next_of_;  ///< cases from the longest on
-  std::atomic<std::size_t> next_ = 0;
   std::size_t told_ = 0, done_ = 0;
   std::mutex mutex_;
 };
