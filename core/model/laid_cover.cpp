@@ -79,8 +79,7 @@ struct GivenShape {
       }
       start.push_back(static_cast<std::uint32_t>(to_x.size()));
     };
-    append(scene_body.outer.vertices, x, y, ring_start);
-    for (const Loop& hole : scene_body.holes) append(hole.vertices, x, y, ring_start);
+    each_loop(scene_body, [&](const Loop& loop) { append(loop.vertices, x, y, ring_start); });
     for (const Vec2& p : scene_body.outer.vertices)
       farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
     for (const Discontinuity& line : scene_body.discontinuities)

@@ -254,16 +254,14 @@ std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, st
   if (model.covered(index))
     return {model.sides.begin() + ranges.side_begin, model.sides.begin() + ranges.side_end};
   std::vector<BoundarySide> sides;
-  const auto append = [&](const Loop& loop) {
+  each_loop(scene.bodies[index], [&](const Loop& loop) {
     const std::size_t count = loop.vertices.size();
     const auto point = [&](std::size_t i) {
       const Vec2 at = loop.vertices[i % count];
       return MaterialPoint{index, {at.x - body.centre.x, at.y - body.centre.y}, {}};
     };
     for (std::size_t i = 0; i < count; ++i) sides.push_back({point(i), point(i + 1), loop.surface_class[i]});
-  };
-  append(scene.bodies[index].outer);
-  for (const Loop& hole : scene.bodies[index].holes) append(hole);
+  });
   return sides;
 }
 

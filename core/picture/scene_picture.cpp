@@ -56,8 +56,7 @@ Vec2 middle_of(const std::vector<Vec2>& points) {
 /// Somewhere within a body, in its middle if that is within.
 Vec2 place_within(const SceneBody& body) {
   const std::vector<Vec2>& ring = body.outer.vertices;
-  Loops loops{ring};
-  for (const Loop& hole : body.holes) loops.push_back(hole.vertices);
+  const Loops loops = loops_of(body);
   const Vec2 middle = middle_of(ring);
   if (contains(loops, middle, 0)) return middle;
   Vec2 best = middle;
@@ -73,8 +72,8 @@ Vec2 place_within(const SceneBody& body) {
 
 void draw_body(Picture& picture, std::size_t index) {
   const SceneBody& body = picture.scene.bodies[index];
-  std::vector<std::vector<Spot>> rings{picture.view.ring(body.outer.vertices)};
-  for (const Loop& hole : body.holes) rings.push_back(picture.view.ring(hole.vertices));
+  std::vector<std::vector<Spot>> rings;
+  each_loop(body, [&](const Loop& loop) { rings.push_back(picture.view.ring(loop.vertices)); });
   const std::string_view fill =
       body.fixed ? palette::fixed : body_colours[body.material % std::size(body_colours)];
   if (!body.fixed) picture.legend[picture.scene.materials[body.material].name] = fill;
@@ -110,12 +109,10 @@ void draw_surfaces(Picture& picture, std::size_t index) {
     picture.svg.line(picture.view.ring(line), {colour, 2.4, dashes});
     if (!surface.surface.empty()) picture.legend["surface " + surface.surface] = colour;
   };
-  const auto sides = [&](const Loop& loop) {
+  each_loop(body, [&](const Loop& loop) {
     for (std::size_t i = 0; i < loop.vertices.size(); ++i)
       draw({loop.vertices[i], loop.vertices[(i + 1) % loop.vertices.size()]}, loop.surface_class[i], "");
-  };
-  sides(body.outer);
-  for (const Loop& hole : body.holes) sides(hole);
+  });
   for (const Discontinuity& cut : body.discontinuities) draw(cut.points, cut.surface_class, "6 3");
 }
 

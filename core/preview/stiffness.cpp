@@ -40,8 +40,9 @@ double stilling_time(const Scene& scene, const SceneBody& body, double young, do
 }
 
 std::set<std::uint32_t> classes_of_boundary(const SceneBody& body) {
-  std::set<std::uint32_t> classes(body.outer.surface_class.begin(), body.outer.surface_class.end());
-  for (const Loop& hole : body.holes) classes.insert(hole.surface_class.begin(), hole.surface_class.end());
+  std::set<std::uint32_t> classes;
+  each_loop(body,
+            [&](const Loop& loop) { classes.insert(loop.surface_class.begin(), loop.surface_class.end()); });
   for (const Discontinuity& cut : body.discontinuities) classes.insert(cut.surface_class);
   return classes;
 }

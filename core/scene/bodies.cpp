@@ -177,9 +177,7 @@ void report_overlaps(Reading& reading) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!reading.sound[i]) continue;
     number.push_back(i);
-    Loops& loops = shapes.emplace_back();
-    loops.push_back(bodies[i].outer.vertices);
-    for (const Loop& hole : bodies[i].holes) loops.push_back(hole.vertices);
+    shapes.push_back(loops_of(bodies[i]));
   }
   std::vector<const Loops*> pointers;
   for (const Loops& loops : shapes) pointers.push_back(&loops);

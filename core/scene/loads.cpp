@@ -115,15 +115,13 @@ SupportPast past_of(const PrescribedSurface& now, const PrescribedSurface* befor
 /// The ends of the edges of a surface. None in a scene without materials, which has no surfaces either.
 std::vector<Vec2> ends_of(const SceneBody& body, std::uint32_t surface_class) {
   std::vector<Vec2> ends;
-  const auto take = [&](const Loop& loop) {
+  each_loop(body, [&](const Loop& loop) {
     for (std::size_t i = 0; i < loop.surface_class.size(); ++i) {
       if (loop.surface_class[i] != surface_class) continue;
       ends.push_back(loop.vertices[i]);
       ends.push_back(loop.vertices[(i + 1) % loop.vertices.size()]);
     }
-  };
-  take(body.outer);
-  std::ranges::for_each(body.holes, take);
+  });
   return ends;
 }
 

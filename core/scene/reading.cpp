@@ -101,8 +101,7 @@ std::optional<Vec2> take_point(const Reading& reading, Section& section, std::op
   const std::optional<Vec2> point = section.optional_pair(table::coordinate);
   if (!point || !body || !reading.sound[*body]) return point;
   const SceneBody& of = reading.scene.bodies[*body];
-  Loops loops{of.outer.vertices};
-  for (const Loop& hole : of.holes) loops.push_back(hole.vertices);
+  const Loops loops = loops_of(of);
   if (!contains(loops, *point, 1e-6 * extent(loops))) {
     section.mistakes().add(
         section.pointer_to("point"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/loop.hpp"
+#include "geometry/outlines.hpp"
 #include "geometry/vec2.hpp"
 #include "plugin/registry.hpp"
 #include "scene/function.hpp"
@@ -75,6 +76,20 @@ struct SceneBody {
   double angular_velocity = 0;  ///< rad/s at t = 0
   double priority = 0;          ///< with roles by priority: the higher one is master
 };
+
+/// The outer loop, then the holes.
+template <class Body, class Each>
+void each_loop(Body& body, const Each& each) {
+  each(body.outer);
+  for (auto& hole : body.holes) each(hole);
+}
+
+/// The vertices of these.
+inline Loops loops_of(const SceneBody& body) {
+  Loops loops;
+  each_loop(body, [&](const Loop& loop) { loops.push_back(loop.vertices); });
+  return loops;
+}
 
 struct PointLoad {
   std::uint32_t body;

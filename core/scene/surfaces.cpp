@@ -59,9 +59,9 @@ struct ClassesOfBody {
 
 ClassesOfBody classes_of(const SceneBody& body) {
   ClassesOfBody classes;
-  classes.all.insert(body.outer.surface_class.begin(), body.outer.surface_class.end());
-  for (const Loop& hole : body.holes)
-    classes.all.insert(hole.surface_class.begin(), hole.surface_class.end());
+  each_loop(body, [&](const Loop& loop) {
+    classes.all.insert(loop.surface_class.begin(), loop.surface_class.end());
+  });
   for (const Discontinuity& cut : body.discontinuities) classes.cuts.insert(cut.surface_class);
   classes.all.insert(classes.cuts.begin(), classes.cuts.end());
   return classes;

@@ -25,11 +25,9 @@ Scene copied(const Scene& scene) {
 
 void map_points(Scene& scene, const MapPoint& map) {
   for (SceneBody& body : scene.bodies) {
-    const auto map_loop = [&](Loop& loop) {
+    each_loop(body, [&](Loop& loop) {
       for (Vec2& vertex : loop.vertices) vertex = map(vertex);
-    };
-    map_loop(body.outer);
-    for (Loop& hole : body.holes) map_loop(hole);
+    });
     for (Discontinuity& line : body.discontinuities) {
       for (Vec2& point : line.points) point = map(point);
     }
@@ -194,8 +192,7 @@ Scene mirrored(const Scene& scene) {
     std::reverse(loop.surface_class.begin(), loop.surface_class.end() - 1);
   };
   for (SceneBody& body : copy.bodies) {
-    other_way_round(body.outer);
-    for (Loop& hole : body.holes) other_way_round(hole);
+    each_loop(body, other_way_round);
     for (auto& corners : body.mesh.corners) std::swap(corners[1], corners[2]);
   }
   return copy;
