@@ -55,9 +55,8 @@ void accelerate_freely(const Body& body, const BodyForce& force, const StepCondi
 
 /// Puts the prescribed parts of the motion in place and books the work of the reactions. Moving the centroid
 /// and turning about it are orthogonal in the mass, so taking one out leaves the others as they are.
-void impose_supports(const Body& body, double density, const Support& support,
-                     const StepConditions& conditions, Update update, const BodyMotion& before,
-                     BodyMotion& after, AccelerationWork& work) {
+void impose_supports(const Body& body, const Support& support, const StepConditions& conditions,
+                     Update update, const BodyMotion& before, BodyMotion& after, AccelerationWork& work) {
   const auto impose = [&](const std::optional<double>& wanted, double mass, double value,
                           double value_before) {
     return talus::impose(wanted, mass, value, value_before, conditions, update, work);
@@ -70,7 +69,7 @@ void impose_supports(const Body& body, double density, const Support& support,
     return;
   }
   const Matrix2 spin = unit_spin(after.h);
-  const double inertia = product(body.moments, density, spin, spin);
+  const double inertia = product(body.moments, body.density(), spin, spin);
   const double turning = turning_of(body, after.rate, spin);
   const double turning_before = turning_of(body, before.rate, spin);
   add(after.rate, impose(support.rotation, inertia, turning, turning_before) - turning, spin);
@@ -102,11 +101,11 @@ BodyMotion mirrored(const BodyMotion& at_step, const BodyMotion& side) {
 /// ½ v₋ᵀ M v₊ as if the step ahead were as long as the one behind (at the start: the one behind as the one
 /// ahead). With the velocities of uneven steps the product would miss energy of first order in their
 /// difference.
-double kinetic_at_step(const Body& body, double density, const StepConditions& conditions,
-                       const BodyMotion& before, const BodyMotion& at_step, const BodyMotion& after) {
-  if (conditions.dt_behind == conditions.dt_ahead) return kinetic_energy(body, density, before, after);
+double kinetic_at_step(const Body& body, const StepConditions& conditions, const BodyMotion& before,
+                       const BodyMotion& at_step, const BodyMotion& after) {
+  if (conditions.dt_behind == conditions.dt_ahead) return kinetic_energy(body, before, after);
   const BodyMotion& side = conditions.dt_behind > 0 ? before : after;
-  return kinetic_energy(body, density, side, mirrored(at_step, side));
+  return kinetic_energy(body, side, mirrored(at_step, side));
 }
 
 /// A body that moves as a whole, with supports or scaled strain, which the kernels do not know.
@@ -114,37 +113,34 @@ void accelerate_whole(const Body& body, std::uint32_t index, const Support& supp
                       const StepConditions& conditions, Update update, MotionState& motion,
                       AccelerationWork& work) {
   BodyMotion& now = motion.bodies[index];
-  const double density = body.density();
   const bool scaled = body.strain_mass_scale != 1;
   // The terms of the turning frame, half of them before the forces and half after: both velocities are then
   // those at t_n but for the forces, which the energy needs.
-  if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_behind / 2);
+  if (scaled) now.rate = StrainMass(body, body.density(), now.h).turned(now.rate, conditions.dt_behind / 2);
   const BodyMotion before = now;
   accelerate_freely(body, motion.forces[index], conditions, update, now);
-  impose_supports(body, density, support, conditions, update, before, now, work);
+  impose_supports(body, support, conditions, update, before, now, work);
   BodyMotion middle = velocity_between(before, now, share_of_after(conditions));
-  work.kinetic += kinetic_at_step(body, density, conditions, before, middle, now);
+  work.kinetic += kinetic_at_step(body, conditions, before, middle, now);
   if (body.kinematics == Kinematics::rigid) middle.rate = spin_rate(middle);
   motion.leave_velocity(index, {middle.velocity, middle.rate});
   work.external_work += body.mass * gravity_work(conditions, before.velocity);
   if (conditions.damping > 0) {
     const BodyMotion mean = velocity_between(before, now, 0.5);  // of uneven steps not that at t_n
-    work.damping_loss +=
-        conditions.damping * kinetic_energy(body, density, mean, before) * conditions.dt_behind;
-    work.damping_loss_ahead +=
-        conditions.damping * kinetic_energy(body, density, mean, now) * conditions.dt_ahead;
+    work.damping_loss += conditions.damping * kinetic_energy(body, mean, before) * conditions.dt_behind;
+    work.damping_loss_ahead += conditions.damping * kinetic_energy(body, mean, now) * conditions.dt_ahead;
   }
-  if (scaled) now.rate = StrainMass(body, density, now.h).turned(now.rate, conditions.dt_ahead / 2);
+  if (scaled) now.rate = StrainMass(body, body.density(), now.h).turned(now.rate, conditions.dt_ahead / 2);
 }
 
 }  // namespace
 
-double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q) {
+double kinetic_energy(const Body& body, const BodyMotion& p, const BodyMotion& q) {
   const double translation = body.mass * (p.velocity.x * q.velocity.x + p.velocity.y * q.velocity.y);
   const auto rest = [&] {
     if (body.kinematics == Kinematics::rigid) return body.inertia() * p.spin * q.spin;
-    if (body.strain_mass_scale != 1) return StrainMass(body, density, q.h).product(p.rate, q.rate);
-    return product(body.moments, density, p.rate, q.rate);
+    if (body.strain_mass_scale != 1) return StrainMass(body, body.density(), q.h).product(p.rate, q.rate);
+    return product(body.moments, body.density(), p.rate, q.rate);
   };
   return (translation + rest()) / 2;
 }

@@ -58,6 +58,6 @@ Matrix2 spin_rate(const BodyMotion& motion);
 void move(const Model& model, double dt, Blocks& blocks, MotionState& motion);
 
 /// Kinetic energy of a body with velocities p before and q after, ½ pᵀ M q, J/m.
-double kinetic_energy(const Body& body, double density, const BodyMotion& p, const BodyMotion& q);
+double kinetic_energy(const Body& body, const BodyMotion& p, const BodyMotion& q);
 
 }  // namespace talus

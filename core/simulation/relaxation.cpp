@@ -50,7 +50,7 @@ double Relaxation::damping(const Damping& how, const Model& model, const PatchMa
     }
     const BodyMotion& moved = motion.bodies[b];
     stiffness -= power(body, moved, difference(motion.forces[b], last_forces_[b]));
-    inertia += 2 * kinetic_energy(body, body.density(), moved, moved);
+    inertia += 2 * kinetic_energy(body, moved, moved);
   }
   last_forces_ = motion.forces;
   last_patch_forces_ = motion.patch_force;

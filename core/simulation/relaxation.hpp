@@ -1,6 +1,6 @@
 #pragma once
 
-#include "checkpoint/archive.hpp"
+#include "archive/archive.hpp"
 #include "model/model.hpp"
 #include "model/motion.hpp"
 #include "scene/scene.hpp"

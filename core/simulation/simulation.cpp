@@ -3,8 +3,8 @@
 #include "files/hash.hpp"
 #include "model/distinct_points.hpp"
 #include "model/fragments.hpp"
-#include "output/quantity.hpp"
 #include "parallel/subnormals.hpp"
+#include "scene/quantity.hpp"
 #include "simulation/state.hpp"
 
 #include <fmt/format.h>
@@ -305,14 +305,12 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
   std::vector<BodyPart> parts;
   if (!s.model.covered(index)) {
     BodyPart& whole = parts.emplace_back(BodyPart{{}, s.deformation.cauchy(s.model, s.motion, index)});
-    const auto add_loop = [&](const Loop& loop) {
+    each_loop(s.scene.bodies[index], [&](const Loop& loop) {
       std::vector<PartPoint>& points = whole.loops.emplace_back();
       for (const Vec2 vertex : loop.vertices) {
         points.push_back(s.point({index, {vertex.x - b.centre.x, vertex.y - b.centre.y}, {}}, vertex));
       }
-    };
-    add_loop(s.scene.bodies[index].outer);
-    for (const Loop& hole : s.scene.bodies[index].holes) add_loop(hole);
+    });
     return parts;
   }
   parts.reserve(b.element_end - b.element_begin);

@@ -164,16 +164,14 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     Island& island = islands_[entry[of] - 1];
     const Body& body = model.bodies[b];
     BodyMotion& now = parts.motion.bodies[b];
-    const double density = body.density();
     BodyMotion middle = now;
     middle.velocity = {(before_[i].velocity.x + now.velocity.x) / 2,
                        (before_[i].velocity.y + now.velocity.y) / 2};
     middle.spin = (before_[i].spin + now.spin) / 2;
     middle.rate = {(before_[i].rate.xx + now.rate.xx) / 2, (before_[i].rate.xy + now.rate.xy) / 2,
                    (before_[i].rate.yx + now.rate.yx) / 2, (before_[i].rate.yy + now.rate.yy) / 2};
-    taken.kinetic += kinetic_energy(body, density, before_[i], now);
-    taken.damping_loss_ahead +=
-        conditions.damping * kinetic_energy(body, density, middle, now) * conditions.dt_ahead;
+    taken.kinetic += kinetic_energy(body, before_[i], now);
+    taken.damping_loss_ahead += conditions.damping * kinetic_energy(body, middle, now) * conditions.dt_ahead;
     island.strain_energy += parts.deformation.stored_in(model, b);
     ++island.bodies;
     island_[b] = island.number;

@@ -1,8 +1,8 @@
 #include "simulation/state.hpp"
 
 #include "files/input_error.hpp"
-#include "output/quantity.hpp"
 #include "parallel/large_pages.hpp"
+#include "scene/quantity.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,6 @@ Simulation::State::State(Scene scene_in, const RunSettings& settings_in)
     deformation.keep_energies(model);
   }
   summary.critical_dt = critical.dt;
-  summary.warnings = scene.warnings;
   ledger.set_floor(energy_floor());
   blocks.set_supports(stage.supports);
   // Corners have both, and none but the votes of a later stage asks the model.
@@ -108,39 +107,17 @@ void Simulation::State::begin(double end) {
 
 /// The right-hand side of Eq. 16 and the velocity update.
 void Simulation::State::forces() {
-  to_be_seen = velocities_left = false;
-  observed = watched || plan.done == 0;
-  profile.enter(Phase::boundary);
-  motion.clear_patch_forces(model);
-  speeds = blocks.follow(model, contacts.drift(), motion);  // Eq. 11
-  check_numbers();
-  if (sleep && !settling) sleep->watch(time, gravity(), workers, sleeping_parts());
-  profile.enter(Phase::neighbours);
-  if (contacts.find_pairs(model, motion, dt_behind, speeds)) vote_again();  // Table 1, 1
+  follow_boundaries();  // Eq. 11
+  find_pairs();         // Table 1, 1
   const bool may_sleep_now = may_sleep();
   observed = observed || may_sleep_now;
-  profile.enter(Phase::contacts);
   evaluate_contacts();  // Eqs. 28–48
-  profile.enter(Phase::loads);
-  const Vec2 pull = gravity();
-  loads.apply(motion, step_span(), dt_behind);  // Eqs. 19–20
-  const Damping& how = settling ? scene.settle->damping : stage.damping;
-  const bool at_once = !forces_first(how);
+  apply_loads();        // Eqs. 19–20
   profile.enter(Phase::materials);
-  if (!at_once) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
-  if (settling && scene.settle->until) {
-    const double unbalanced = relaxation.unbalanced(model, mass, motion, stage.supports, pull);
-    const double driving = Relaxation::weight(model, pull) + loads.applied();
-    unbalanced_share = unbalanced > 0 ? unbalanced / (driving > 0 ? driving : loads.reactions()) : 0;
-  }
-  const double damping = relaxation.damping(how, model, mass, motion, dt_behind, critical.lambda);
-  if (stage_begins) {
-    take_velocities_at_stage();
-    velocities_at_stage = {};  // not until the next stage
-  }
-  const StepConditions conditions{pull,     fresh ? pull : last_gravity, damping, pushed_behind(), plan.dt,
-                                  !settling};
-  if (at_once)
+  const bool first = forces_first();
+  if (first) strain_energy = deformation.apply(model, motion, dt_behind, observed);  // Eq. 18
+  const StepConditions conditions = conditions_ahead();
+  if (!first)
     strain_energy = deformation.apply_and_update(model, mass, stage.supports, conditions, dt_behind, observed,
                                                  motion, patch_velocity_at_step);  // Eqs. 18, 23–24
   check_shapes();
@@ -149,6 +126,61 @@ void Simulation::State::forces() {
   if (may_sleep_now) sleep->choose(time, sleeping_parts());
   const AccelerationWork work = accelerate(model, mass, stage.supports, conditions, observed, blocks, motion,
                                            patch_velocity_at_step, deformation.updated());  // Eqs. 23–24
+  book(work, conditions, may_sleep_now);
+}
+
+void Simulation::State::follow_boundaries() {
+  to_be_seen = velocities_left = false;
+  observed = watched || plan.done == 0;
+  profile.enter(Phase::boundary);
+  motion.clear_patch_forces(model);
+  speeds = blocks.follow(model, contacts.drift(), motion);
+  check_numbers();
+}
+
+void Simulation::State::find_pairs() {
+  if (sleep && !settling) sleep->watch(time, gravity(), workers, sleeping_parts());
+  profile.enter(Phase::neighbours);
+  if (contacts.find_pairs(model, motion, dt_behind, speeds)) vote_again();
+}
+
+void Simulation::State::evaluate_contacts() {
+  profile.enter(Phase::contacts);
+  const bool hold_stick = settling && scene.settle->hold_stick;
+  const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling, observed};
+  contact_totals = contacts.evaluate(model, motion, conditions);
+  if (sleep) {
+    sleep->wake(contacts.touched(), time, sleeping_parts());
+    contact_totals.stored += sleep->contact_energy();
+  }
+  if (plan.done == 0 && !settling) warn_of_thin_ground();  // not where a checkpoint happens to be due
+  check_law();
+}
+
+void Simulation::State::apply_loads() {
+  profile.enter(Phase::loads);
+  loads.apply(motion, step_span(), dt_behind);
+}
+
+/// What the velocities are updated with. Where all forces are known by now, they tell whether it is settled
+/// and how much damping there is.
+StepConditions Simulation::State::conditions_ahead() {
+  const Vec2 pull = gravity();
+  if (settling && scene.settle->until) {
+    const double unbalanced = relaxation.unbalanced(model, mass, motion, stage.supports, pull);
+    const double driving = Relaxation::weight(model, pull) + loads.applied();
+    unbalanced_share = unbalanced > 0 ? unbalanced / (driving > 0 ? driving : loads.reactions()) : 0;
+  }
+  const double constant = relaxation.damping(damping(), model, mass, motion, dt_behind, critical.lambda);
+  if (stage_begins) {
+    take_velocities_at_stage();
+    velocities_at_stage = {};  // not until the next stage
+  }
+  return {pull, fresh ? pull : last_gravity, constant, pushed_behind(), plan.dt, !settling};
+}
+
+/// The energies of t_n, and those that what goes to sleep now takes along.
+void Simulation::State::book(const AccelerationWork& work, const StepConditions& conditions, bool sleeps) {
   profile.enter(Phase::books);
   check_materials(work.kinetic);
   const bool step_changes = (beside_stage || was_beside_stage) && conditions.dt_behind > 0 &&
@@ -156,12 +188,12 @@ void Simulation::State::forces() {
   ledger.book(contact_totals, strain_energy, loads, work,
               {stage_begins, springs_changed, step_changes, from_rest});
   Sleep::Taken taken{};
-  if (may_sleep_now) {
+  if (sleeps) {
     taken = sleep->put_to_sleep(time, conditions, sleeping_parts());
     ledger.lose_asleep(taken.kinetic, taken.damping_loss_ahead);
   }
-  last_gravity = pull;
-  past_peak = relaxation.past_peak(how, work.kinetic, taken.kinetic);
+  last_gravity = conditions.gravity;
+  past_peak = relaxation.past_peak(damping(), work.kinetic, taken.kinetic);
   profile.enter(Phase::checks);
   fresh = stage_begins = springs_changed = false;
   to_be_seen = velocities_left = observed;
@@ -184,21 +216,13 @@ bool Simulation::State::may_sleep() const {
   return sleep && !settling && !stage_begins && dt_behind > 0 && dt_behind == plan.dt && sleep->due(time);
 }
 
-/// Whether all forces have to be known before any patch can go on.
-bool Simulation::State::forces_first(const Damping& how) const {
-  return how.kind == Damping::Kind::adaptive || (settling && scene.settle->until);
+const Damping& Simulation::State::damping() const {
+  return settling ? scene.settle->damping : stage.damping;
 }
 
-void Simulation::State::evaluate_contacts() {
-  const bool hold_stick = settling && scene.settle->hold_stick;
-  const ContactStage::Conditions conditions{dt_behind, hold_stick, fresh || settling, observed};
-  contact_totals = contacts.evaluate(model, motion, conditions);
-  if (sleep) {
-    sleep->wake(contacts.touched(), time, sleeping_parts());
-    contact_totals.stored += sleep->contact_energy();
-  }
-  if (plan.done == 0 && !settling) warn_of_thin_ground();  // not where a checkpoint happens to be due
-  check_law();
+/// Whether all forces have to be known before any patch can go on.
+bool Simulation::State::forces_first() const {
+  return damping().kind == Damping::Kind::adaptive || (settling && scene.settle->until);
 }
 
 /// What rounding makes of a body at rest: its weight by 1e-12 of its width, and motion by 1e-13 of its width

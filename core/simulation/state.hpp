@@ -74,6 +74,7 @@ struct Simulation::State {
   std::size_t stages_begun = 0;
   // At t_n, for the coming forces().
   bool stage_begins = false, springs_changed = false;
+  bool told_of_thin_ground = false;
   bool past_peak = false;  ///< kinetic damping: velocities are to be taken
   bool from_rest = false;  ///< they were, at this t_n
   struct {
@@ -114,7 +115,14 @@ struct Simulation::State {
   void refuse_uncountable_steps() const;
 
   void forces();
-  bool forces_first(const Damping& how) const;
+  void follow_boundaries();
+  void find_pairs();
+  void evaluate_contacts();
+  void apply_loads();
+  StepConditions conditions_ahead();
+  void book(const AccelerationWork& work, const StepConditions& conditions, bool sleeps);
+  const Damping& damping() const;  ///< of the settle stage or of the run
+  bool forces_first() const;
   void begin_due_stages();
   void exchange_memory(Archive& archive);
   void take_velocities_at_stage();
@@ -124,7 +132,6 @@ struct Simulation::State {
   Vec2 gravity() const;
   StepSpan step_span() const;
   bool settled() const;
-  void evaluate_contacts();
   bool may_sleep() const;
   Sleep::Parts sleeping_parts() { return {model, blocks, contacts, deformation, motion}; }
   double energy_floor() const;
