@@ -25,8 +25,8 @@ struct CornerContact {
                         ///< tributary grows with the depth
   double in_corner;     ///< m, that length where it shares a reflex corner
   double slack;         ///< m, how far past the end of the side the vertex may be and still stand on it
-  double share;         ///< of its spring: half where two corners meet on each other's edges, see also
-                        ///< `share_in_corner`; else 1
+  double share;         ///< of its spring: half where two corners that bear alike meet on each other's edges,
+                        ///< see also `share_in_corner`; else 1
   bool meets_corner;    ///< two corners meet, and each stands on the other's edge
   bool past_cut;        ///< past the cut at the end of the side, where its piece cannot see it any more
   bool stands;          ///< on this side, not only on others that the same vertex was found at
@@ -78,9 +78,6 @@ inline constexpr double resting = 0.003, further = 4;
 /// behind that softly.
 inline constexpr double grows = 20;
 
-/// Ratio of the tributaries of two corners that meet, from which on they share one spring.
-inline constexpr double alike = 0.2;
-
 /// m, up to how deep behind a side the end of another counts as on it, though a flank is nearer. Lattices cut
 /// off sides shorter than any overlap, so that of the side below counts as well.
 inline double shallow(double own, double met) {
@@ -96,7 +93,7 @@ struct BondReach {
 
 /// Vertices that stand on (or, within `bond_reach`, just above) a side of the other piece. A corner against a
 /// corner is resolved to an edge as in DDA: only sides that face the corner can carry it, and of those the
-/// one it is least deep behind; where both corners then stand on each other's edges each spring counts half.
+/// one it is least deep behind; where both corners then stand on each other's edges they share a spring.
 class CornerFinder {
  public:
   /// Of one of the piece pairs of a pair of bodies; no bond reaches further than `farthest` m.
@@ -126,7 +123,10 @@ class CornerFinder {
     for (std::size_t i = first; i < found.size(); ++i) {
       for (std::size_t j = i + 1; j < found.size(); ++j) {
         if (!mutual(geometry, found[i], found[j])) continue;
-        found[i].share = found[j].share = 0.5;
+        // One that bears next to nothing is no half of the other.
+        const double more = std::max(found[i].tributary, found[j].tributary),
+                     alike = more > 0 ? std::min(found[i].tributary, found[j].tributary) / more : 1;
+        found[i].share = found[j].share = 1 - alike * alike / 2;
         found[i].meets_corner = found[j].meets_corner = true;
       }
     }
@@ -396,8 +396,6 @@ class CornerFinder {
       return at_start(contact, other) || at_end(contact, other);
     };
     if (!ends_at(p, q) || !ends_at(q, p)) return false;
-    // One that bears next to nothing is no half of the other.
-    if (std::min(p.tributary, q.tributary) < alike * std::max(p.tributary, q.tributary)) return false;
     return past(p, q) || past(q, p) || (near(p, q) && near(q, p));
   }
 

@@ -73,3 +73,13 @@ TEST_CASE("the Vaiont scene has the blocks, the area and the pairs that are know
   CHECK(pairs > 2000);
   for (const Monitor& monitor : scene.monitors) CHECK_FALSE(scene.bodies[monitor.body].fixed);
 }
+
+TEST_CASE("The Vaiont slide comes to rest as soon under vertex_edge as under overlap_area",
+          "[blocks][slow]") {
+  const auto settling_time = [](const std::string& law) {
+    Simulation simulation(figures::shipped("vaiont", {{"/contact/model", law}}), {});
+    simulation.settle();
+    return static_cast<double>(simulation.summary().settle_steps) * simulation.last_dt();
+  };
+  CHECK(settling_time("vertex_edge") < 2 * settling_time("overlap_area"));
+}
