@@ -116,6 +116,7 @@ std::vector<std::string> warnings_of_scene(const Scene& scene) {
   std::vector<std::string> warnings;
   if (!scene.stages.empty())
     warnings.emplace_back("the stages of the scene are left out: strength is reduced from the start");
+  if (scene.sleep) warnings.emplace_back("the sleep of the scene is left out: what creeps counts");
   if (!scene.settle)
     warnings.emplace_back("the scene has no settle stage: what it does to come to rest counts as motion");
   question_bonds(scene, warnings);
@@ -183,12 +184,16 @@ std::vector<std::string> warnings_of_runs(const Scene& scene, const Safety& safe
 }
 
 /// The answer with all that was said of it, for scripts and for those who find the folder later.
-std::string safety_json(const Scene& scene, const SceneFile& source, const SafetySettings& settings,
-                        const Safety& safety, const std::vector<std::string>& warnings) {
+std::string safety_json(const Scene& scene, const SceneFile& source, const std::vector<Override>& overrides,
+                        const SafetySettings& settings, const Safety& safety,
+                        const std::vector<std::string>& warnings) {
   OrderedJson json;
   json["talus"] = TALUS_VERSION;
   json["scene"] = source.file.string();
   json["scene_hash"] = hash_of_bytes(source.text);
+  json["set"] = OrderedJson::array();
+  for (const Override& change : overrides)
+    json["set"].push_back({{"pointer", change.pointer}, {"value", change.value}});
   json["end"] = safety.interrupted ? "interrupted" : "finished";
   const auto put = [&](const char* key, const std::optional<double>& value) {
     json[key] = value ? OrderedJson(*value) : OrderedJson(nullptr);
@@ -197,8 +202,9 @@ std::string safety_json(const Scene& scene, const SceneFile& source, const Safet
   put("stands", safety.stands);
   put("collapses", safety.falls);
   json["tolerance"] = settings.tolerance;
-  json["failing bodies"] =
-      safety.factor() ? names_of(scene, run_at(safety, *safety.falls).moving) : std::vector<std::string>{};
+  json["failing bodies"] = safety.factor() && !safety.interrupted
+                               ? names_of(scene, run_at(safety, *safety.falls).moving)
+                               : std::vector<std::string>{};
   json["warnings"] = warnings;
   return json.dump(2) + "\n";
 }
@@ -261,8 +267,8 @@ int safety_command(const Words& words) {
   Registry registry = offered_registry(usage, *given);
   const SceneFile source = scene_file_of(*given);
   const std::filesystem::path folder = output_folder(*given, source, "-safety");
-  const Scene scene =
-      read_scene_of(source, registry, overrides_of(usage, *given), given->count("allow-plugins") != 0);
+  const std::vector<Override> overrides = overrides_of(usage, *given);
+  const Scene scene = read_scene_of(source, registry, overrides, given->count("allow-plugins") != 0);
   std::vector<std::string> warnings;
   const auto warn = [&](const std::vector<std::string>& more) {
     for (const std::string& warning : more) print_warning(warning);
@@ -284,10 +290,10 @@ int safety_command(const Words& words) {
     warn(safety.warnings);
     throw NumericalTrouble(safety.trouble);
   }
-  if (!safety.interrupted) warn(warnings_of_runs(scene, safety));
+  warn(safety.interrupted ? safety.warnings : warnings_of_runs(scene, safety));
   write_whole_file(folder / "safety.csv", safety_csv(scene, safety));
   write_whole_file(folder / "safety.svg", safety_svg(safety));
-  write_whole_file(folder / "safety.json", safety_json(scene, source, settings, safety, warnings));
+  write_whole_file(folder / "safety.json", safety_json(scene, source, overrides, settings, safety, warnings));
   if (const std::string mechanism = mechanism_svg(scene, safety); !mechanism.empty())
     write_whole_file(folder / "mechanism.svg", mechanism);
   say_result(scene, safety);

@@ -8,13 +8,14 @@
 namespace talus {
 namespace {
 
-constexpr double seen = 1e-3;     ///< share of the size
-constexpr double lost = 0.05;     ///< share of the size: whatever stops further on has failed, too
-constexpr double steady = 0.45;   ///< of the way, in the second half of the time: one half at constant speed
-constexpr double kept = 0.9;      ///< of the speed in the middle, at the end
-constexpr double slowing = 0.25;  ///< of the way, and of that speed: slower, but not at rest
-constexpr double crawling = 0.8;  ///< of the way that the speed at the end would make in the second half
-constexpr double crept = 1e-3;    ///< of the way: less is the last of what an elastic body has to give
+constexpr double seen = 1e-3;      ///< share of the size
+constexpr double lost = 0.05;      ///< share of the size: whatever stops further on has failed, too
+constexpr double steady = 0.45;    ///< of the way, in the second half of the time: one half at constant speed
+constexpr double kept = 0.9;       ///< of the speed in the middle, at the end
+constexpr double all_kept = 0.99;  ///< of it, while there is time: what relaxes slowly loses more
+constexpr double slowing = 0.25;   ///< of the way, and of that speed: slower, but not at rest
+constexpr double crawling = 0.8;   ///< of the way that the speed at the end would make in the second half
+constexpr double crept = 1e-3;     ///< of the way: less is the last of what an elastic body has to give
 
 /// Along x and y; turning a body drives its vertices along both.
 std::array<bool, 2> driven_axes(const Scene& scene, std::size_t body) {
@@ -99,17 +100,19 @@ PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec
   return motions;
 }
 
-Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const {
+Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end,
+                      bool last) const {
   const double way = end.way[piece], lately = way - middle.way[piece], size = pieces_[piece].size;
   const bool far = way > seen * size,
              goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
   if (end.moved[piece] > lost * size)
     return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
-  if (goes_on) return far ? Course::failed : Course::goes_on;
+  const bool steadily = last || end.speed[piece] > all_kept * middle.speed[piece];
+  if (goes_on) return far && steadily ? Course::failed : Course::goes_on;
   // At a constant speed, after it gave way by more than that when its strength was cut.
   const bool crawls = end.speed[piece] > kept * middle.speed[piece] && lately > crept * way &&
                       lately > crawling * end.speed[piece] * (end.time - middle.time);
-  if (crawls) return lately > seen * size ? Course::failed : Course::goes_on;
+  if (crawls) return lately > seen * size && steadily ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
   const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
   return slows ? Course::goes_on : Course::rests;

@@ -39,8 +39,9 @@ class Pieces {
 
   /// How a piece fares between the middle and the end of a run: failed, where it came far or goes on and has
   /// come far enough to tell; one that slows down goes on, too, until it rests. Whether it goes on its way in
-  /// the run tells; what it moved while it settled would hide that.
-  Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end) const;
+  /// the run tells; what it moved while it settled would hide that. Unless it is the `last` look at it, one
+  /// that loses a hundredth of its speed is given more time.
+  Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end, bool last) const;
 
   /// Bodies of which a piece moved so far that it has failed, wherever it stopped.
   std::vector<std::size_t> gone(const PieceMotions& motions) const;

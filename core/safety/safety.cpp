@@ -310,7 +310,7 @@ class Reduction {
         result.displacement = end.moved[i];
         result.body = body;
       }
-      const Course course = pieces_->course(i, middle, end);
+      const Course course = pieces_->course(i, middle, end, longer == 1);
       if (course == Course::rests && end.moved[i] > jammed * pieces_->all()[i].size)
         add(result.came_to_rest, body);
       if (course == Course::failed || course == Course::stopped) add(result.moving, body);
@@ -346,6 +346,8 @@ class Reduction {
 Scene with_reduced_strength(const Scene& scene, double factor) {
   Scene reduced = scene;
   reduced.stages.clear();
+  // What creeps against damping has no acceleration to speak of, and would be put to sleep.
+  reduced.sleep.reset();
   for (SceneBody& body : reduced.bodies) {
     body.velocity = {};
     body.angular_velocity = 0;

@@ -30,10 +30,13 @@ TEST_CASE("A piece that slows down goes on until it rests or has come far", "[sa
                         Case{0.0005, 0.1, 0.0007, 0.1, Course::rests}}) {     // vibrating
     INFO(c.moved_end << " m, " << c.speed_end << " m/s");
     CHECK(pieces.course(0, {{c.moved_middle}, {c.moved_middle}, {c.speed_middle}, 0.1},
-                        {{c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}) == c.due);
+                        {{c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}, false) == c.due);
     // What it moved while it settled hides nothing, and is far enough by itself.
     if (c.due == Course::failed || c.due == Course::stopped) continue;
     CHECK(pieces.course(0, {{0.02 + c.moved_middle}, {c.moved_middle}, {c.speed_middle}, 0.1},
-                        {{0.02 + c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}) == c.due);
-  }
+                        {{0.02 + c.moved_end}, {c.moved_end}, {c.speed_end}, 0.2}, false) == c.due);
+  }  // What loses some of its speed may come to rest: it fails at the last look.
+  const PieceMotions middle{{0.01}, {0.01}, {0.1}, 0.1}, end{{0.0195}, {0.0195}, {0.095}, 0.2};
+  CHECK(pieces.course(0, middle, end, false) == Course::goes_on);
+  CHECK(pieces.course(0, middle, end, true) == Course::failed);
 }
