@@ -46,6 +46,9 @@ std::optional<Span> span_of(const Variation& variation) {
   if (!from || !to || !(*from < *to))
     throw InputError(fmt::format("--vary {}={}: a range is low:high, two numbers", variation.pointer,
                                  variation.values[0]));
+  if (!std::isfinite(*to - *from) || (*from > 0 && !std::isfinite(*to / *from)))
+    throw InputError(fmt::format("--vary {}={}: the range is too wide to be divided", variation.pointer,
+                                 variation.values[0]));
   return Span{*from, *to};
 }
 

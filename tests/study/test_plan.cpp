@@ -72,6 +72,8 @@ TEST_CASE(
   for (const std::size_t count : {0, 10001})
     CHECK_THROWS_WITH(latin_hypercube({{"/a", {"1:2"}}}, count, 7),
                       "--sample " + std::to_string(count) + ": allowed are 1 to 10000");
+  for (const char* range : {"-1e308:1e308", "1e-300:1e10"})
+    CHECK_THROWS_WITH(latin_hypercube({{"/a", {range}}}, 4, 7), Contains("too wide to be divided"));
   CHECK(latin_hypercube({{"/a", {"c:d"}}}, 2, 7).points[0].values[0] == "c:d");
   CHECK(grid({{"/a", {"x:", "1:2"}}}).points.size() == 2);  // of two values none is a range
 }
