@@ -18,7 +18,7 @@ namespace {
 std::string range_of(const Parameter& parameter) {
   const bool below_bounded = std::isfinite(parameter.minimum),
              above_bounded = std::isfinite(parameter.maximum);
-  if (parameter.minimum == above_zero) {
+  if (is_above_zero(parameter)) {
     return above_bounded ? fmt::format(" greater than 0 and at most {}", parameter.maximum)
                          : " greater than 0";
   }

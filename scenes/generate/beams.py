@@ -53,6 +53,7 @@ def scene(size):
 // Right answer: no closed form. The snap (largest speed of the lower crest after it gave way) comes at about 15 m
 // without friction, at about 16 m with 10 degrees; then friction takes the energy of the motion bit by bit, while
 // without it the beams go on swinging. u = 1 m/s t. The ledger must close; docs/beams_and_blocks.md has what was measured.
+// The density of 2.3 that `talus validate` asks about is the paper's, which gives no unit.
 //
 //   talus run scenes/beams.json --out beams
 //   talus compare scenes/beams.json --vary /interfaces/0/friction_angle=0,10 --out beams_friction
