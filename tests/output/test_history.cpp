@@ -38,7 +38,9 @@ TEST_CASE("displacements, speeds, angles in degrees and stresses follow from a m
   motion.velocity = {-6, 8};
   motion.rotation = std::numbers::pi / 6;
   motion.stress_xx = -5;
-  const auto value = [&](const char* name) { return value_of(find_quantity(name)->what, {motion, {500000, 5e6}}); };
+  const auto value = [&](const char* name) {
+    return value_of(find_quantity(name)->what, {motion, {500000, 5e6}});
+  };
   CHECK(value("ux") == 3);
   CHECK(value("uy") == -4);
   CHECK(value("displacement") == 5);
