@@ -98,149 +98,99 @@ ElementSweep::Workspace ElementSweep::workspace() const {
   return w;
 }
 
-/// One thread on its way over subdomains of a body. Patches enter when the first element needs them and leave
-/// after the last one: they are read from memory and written to it once, and leave their places to others.
-class ElementSweep::Pass {
- public:
-  Pass(ElementSweep& all, const Model& model, const Body& body, const SweepStep& step,
-       MaterialBatches& materials, MotionState& motion, Workspace& w)
-      : all_(all),
-        model_(model),
-        partition_(model.partition),
-        lattice_(partition_.lattices[model.ranges(body).lattice]),
-        first_(model.first_element(body)),
-        step_(step),
-        materials_(materials),
-        batch_(materials.batch_of(first_)),
-        sweeping_(materials.sweeping(batch_)),
-        motion_(motion),
-        elements_(w.elements),
-        f_(rows(w.elements.deformation)),
-        p_(rows(w.elements.stress)),
-        at_(local_vectors(w.displacement, all.most_patches_, lattice_.area > 0)),
-        force_(local_vectors(w.force, all.most_patches_, lattice_.area > 0)) {}
+void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
+                       const SweepStep& step, MaterialBatches& materials, MotionState& motion, Workspace& w,
+                       std::vector<SweepSums>& sums) {
+  const CoverRanges& ranges = model.ranges(body);
+  const Partition& partition = model.partition;
+  const RegularLattice& lattice = partition.lattices[ranges.lattice];
+  const std::uint32_t first = model.first_element(body);
+  const std::uint32_t batch = materials.batch_of(first);
+  const Material* const sweeping = materials.sweeping(batch);
+  const Four f = rows(w.elements.deformation), p = rows(w.elements.stress);
+  const bool apart = lattice.area > 0;
+  const LocalVectors at = local_vectors(w.displacement, most_patches_, apart),
+                     force = local_vectors(w.force, most_patches_, apart);
 
-  void over(const Subdomain& subdomain, SweepSums& sum) {
-    entered_ = left_ = subdomain.run_begin;
-    slot_entered_ = slot_left_ = subdomain.slot_begin;
-    sum = {};
-    for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
-      const ElementChunk& chunk = partition_.chunks[c];
-      enter(chunk);
-      if (sweeping_ == nullptr && c + 1 < subdomain.chunk_end) fetch_for(partition_.chunks[c + 1]);
-      const RowsAhead ahead = rows_ahead(motion_, partition_, entered_);
-      if (chunk.cells > 0) {
-        strain_and_load(chunk, cells_of(lattice_, chunk, at_, force_, ahead), sum);
-      } else {
-        strain_and_load(chunk, chain_of(partition_, chunk, at_, force_, ahead), sum);
-      }
-      leave(chunk, sum);
-    }
-  }
-
- private:
-  void enter(const ElementChunk& chunk) {
-    for (; entered_ < chunk.run_needed; ++entered_) {
-      const PatchRun& run = partition_.runs[entered_];
-      all_.kernels_.move(run.count, motion_.own_behind, flat(motion_.patch_displacement, run.patch),
-                         flat(motion_.patch_velocity, run.patch), at_.from(run.local));
-      clear(force_.from(run.local), run.count);
-    }
-    for (; slot_entered_ < chunk.slot_needed; ++slot_entered_) {
-      set(at_, partition_.slot_local[slot_entered_],
-          motion_.patch_displacement[partition_.slot_patch[slot_entered_]]);
-      set(force_, partition_.slot_local[slot_entered_], {});
-    }
-  }
-
-  /// What the next chunk needs comes from memory while this one is worked on. A sweep of the material fetches
-  /// it along the way.
-  void fetch_for(const ElementChunk& next) const {
-    for (std::uint32_t r = entered_; r < next.run_needed; ++r) fetch(motion_, partition_.runs[r]);
-  }
-
-  /// From displacements to forces of one chunk, of a lattice or of any triangles. A material that goes on to
-  /// the forces by itself is asked for stress where that is kept alone.
-  template <class Elements>
-  void strain_and_load(const ElementChunk& chunk, const Elements& elements, SweepSums& sum) {
-    if (sweeping_ == nullptr || step_.keep) {
-      strain(elements);
-      sum.inside_out = sum.inside_out || (step_.keep && elements_.any_inside_out(chunk.count));
-    }
-    if (sweeping_ == nullptr || (step_.keep && materials_.keeps_stress()))
-      materials_.evaluate(batch_, first_ + chunk.element, chunk.count, step_.dt, step_.keep, elements_);
-    if (sweeping_ != nullptr) {
-      sum.stored += sweeping_->sweep(elements);
-    } else {
-      load(chunk, elements, sum);
-    }
-  }
-
-  void strain(const LatticeCells& cells) const {
-    all_.kernels_.lattice_gradient(cells.count, cells.gradient, cells.bottom_x, cells.bottom_y, cells.top_x,
-                                   cells.top_y, f_.data());
-  }
-  void strain(const TriangleChain& chain) const { all_.kernels_.chain_gradient(chain, f_.data()); }
-
-  void load(const ElementChunk& chunk, const LatticeCells& cells, SweepSums& sum) const {
-    const kernels::ElementKernels& kernels = all_.kernels_;
-    kernels.lattice_force(cells.count, cells.gradient, lattice_.area, p_.data(), cells.bottom_force_x,
-                          cells.bottom_force_y, cells.top_force_x, cells.top_force_y);
-    sum.stored += lattice_.area * kernels.sum(chunk.count, elements_.energy);
-    sum.dissipated += lattice_.area * kernels.sum(chunk.count, elements_.dissipated);
-    sum.viscous += lattice_.area * kernels.sum(chunk.count, elements_.viscous);
-  }
-  void load(const ElementChunk&, const TriangleChain& chain, SweepSums& sum) const {
-    const kernels::ElementKernels& kernels = all_.kernels_;
-    kernels.chain_force(chain, p_.data());
-    sum.stored += kernels.chain_sum(chain, elements_.energy);
-    sum.dissipated += kernels.chain_sum(chain, elements_.dissipated);
-    sum.viscous += kernels.chain_sum(chain, elements_.viscous);
-  }
-
-  void leave(const ElementChunk& chunk, SweepSums& sum) {
-    for (; left_ < chunk.run_done; ++left_) leave(partition_.runs[left_], sum);
-    for (; slot_left_ < chunk.slot_done; ++slot_left_)
-      all_.slot_[slot_left_] = vector_of(force_, partition_.slot_local[slot_left_]);
-  }
-
-  void leave(const PatchRun& run, SweepSums& sum) {
-    if (!step_.update) {
+  const auto enter = [&](const PatchRun& run) {
+    kernels_.move(run.count, motion.own_behind, flat(motion.patch_displacement, run.patch),
+                  flat(motion.patch_velocity, run.patch), at.from(run.local));
+    clear(force.from(run.local), run.count);
+  };
+  const auto leave = [&](const PatchRun& run, SweepSums& sum) {
+    if (!step.update) {
       for (std::uint32_t i = 0; i < run.count; ++i)
-        motion_.patch_force[run.patch + i] = vector_of(force_, run.local + i);
+        motion.patch_force[run.patch + i] = vector_of(force, run.local + i);
       return;
     }
     const bool same = run.mass > 0;
     const double inverse = same ? 1 / run.mass : 0;
-    all_.kernels_.accelerate(run.count, step_.velocity, same,
-                             same ? &run.mass : model_.patch_mass.data() + run.patch,
-                             same ? &inverse : step_.inverse_mass + run.patch, force_.from(run.local),
-                             flat(motion_.patch_velocity, run.patch),
-                             step_.keep ? &step_.middle[run.patch].x : nullptr, step_.share, sum.own);
+    kernels_.accelerate(run.count, step.velocity, same,
+                        same ? &run.mass : model.patch_mass.data() + run.patch,
+                        same ? &inverse : step.inverse_mass + run.patch, force.from(run.local),
+                        flat(motion.patch_velocity, run.patch),
+                        step.keep ? &step.middle[run.patch].x : nullptr, step.share, sum.own);
+  };
+
+  for (std::uint32_t s = begin; s < end; ++s) {
+    const Subdomain& subdomain = partition.subdomains[s];
+    // Patches enter when the first element needs them and leave after the last one: they are read from memory
+    // and written to it once, and leave their places to others.
+    std::uint32_t entered = subdomain.run_begin, left = subdomain.run_begin;
+    std::uint32_t slot_entered = subdomain.slot_begin, slot_left = subdomain.slot_begin;
+
+    SweepSums& sum = sums[s];
+    sum = {};
+    for (std::uint32_t c = subdomain.chunk_begin; c < subdomain.chunk_end; ++c) {
+      const ElementChunk& chunk = partition.chunks[c];
+      const std::uint32_t bottom = chunk.bottom, top = chunk.top;
+      for (; entered < chunk.run_needed; ++entered) enter(partition.runs[entered]);
+      for (; slot_entered < chunk.slot_needed; ++slot_entered) {
+        set(at, partition.slot_local[slot_entered],
+            motion.patch_displacement[partition.slot_patch[slot_entered]]);
+        set(force, partition.slot_local[slot_entered], {});
+      }
+      // What the next chunk needs comes from memory while this one is worked on: a sweep fetches it along the
+      // way.
+      for (std::uint32_t r = entered;
+           sweeping == nullptr && c + 1 < subdomain.chunk_end && r < partition.chunks[c + 1].run_needed; ++r)
+        fetch(motion, partition.runs[r]);
+      const RowsAhead ahead = rows_ahead(motion, partition, entered);
+      const bool cells = chunk.cells > 0;
+      const TriangleChain chain = cells ? TriangleChain{} : chain_of(partition, chunk, at, force, ahead);
+      if (sweeping == nullptr || step.keep) {
+        if (cells) {
+          kernels_.lattice_gradient(chunk.cells, lattice.gradient.data(), at.x + bottom, at.y + bottom,
+                                    at.x + top, at.y + top, f.data());
+        } else {
+          kernels_.chain_gradient(chain, f.data());
+        }
+        sum.inside_out = sum.inside_out || (step.keep && w.elements.any_inside_out(chunk.count));
+      }
+      // A material that goes on to the forces by itself is asked for stress where that is kept alone.
+      if (sweeping == nullptr || (step.keep && materials.keeps_stress())) {
+        materials.evaluate(batch, first + chunk.element, chunk.count, step.dt, step.keep, w.elements);
+      }
+      if (sweeping != nullptr) {
+        sum.stored +=
+            cells ? sweeping->sweep(cells_of(lattice, chunk, at, force, ahead)) : sweeping->sweep(chain);
+      } else if (cells) {
+        kernels_.lattice_force(chunk.cells, lattice.gradient.data(), lattice.area, p.data(), force.x + bottom,
+                               force.y + bottom, force.x + top, force.y + top);
+        sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
+        sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
+        sum.viscous += lattice.area * kernels_.sum(chunk.count, w.elements.viscous);
+      } else {
+        kernels_.chain_force(chain, p.data());
+        sum.stored += kernels_.chain_sum(chain, w.elements.energy);
+        sum.dissipated += kernels_.chain_sum(chain, w.elements.dissipated);
+        sum.viscous += kernels_.chain_sum(chain, w.elements.viscous);
+      }
+      for (; left < chunk.run_done; ++left) leave(partition.runs[left], sum);
+      for (; slot_left < chunk.slot_done; ++slot_left)
+        slot_[slot_left] = vector_of(force, partition.slot_local[slot_left]);
+    }
   }
-
-  ElementSweep& all_;
-  const Model& model_;
-  const Partition& partition_;
-  const RegularLattice& lattice_;
-  std::uint32_t first_;  ///< element of the body
-  const SweepStep& step_;
-  MaterialBatches& materials_;
-  std::uint32_t batch_;
-  const Material* sweeping_;  ///< the material, where it goes from displacements to forces by itself
-  MotionState& motion_;
-  ElementBuffer& elements_;
-  Four f_, p_;
-  LocalVectors at_, force_;
-  std::uint32_t entered_ = 0, left_ = 0;            ///< runs
-  std::uint32_t slot_entered_ = 0, slot_left_ = 0;  ///< slots of common patches
-};
-
-void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,
-                       const SweepStep& step, MaterialBatches& materials, MotionState& motion, Workspace& w,
-                       std::vector<SweepSums>& sums) {
-  Pass pass(*this, model, body, step, materials, motion, w);
-  for (std::uint32_t s = begin; s < end; ++s) pass.over(model.partition.subdomains[s], sums[s]);
 }
 
 void ElementSweep::gather(const Model& model, const Body& body, std::uint32_t begin, std::uint32_t end,

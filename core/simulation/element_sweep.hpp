@@ -58,8 +58,6 @@ class ElementSweep {
                      const SweepStep& step, MotionState& motion, kernels::VelocitySums& sums) const;
 
  private:
-  class Pass;
-
   const kernels::ElementKernels& kernels_;
   std::vector<Vec2> slot_;  ///< [slot] N/m
   std::size_t most_patches_ = 0;
