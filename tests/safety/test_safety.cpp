@@ -301,6 +301,11 @@ TEST_CASE("What slides at a steady speed has failed", "[safety]") {
     CHECK(factor_of(on_a_plane(1, {{"/damping", damping}})) == Approx(on_a_plane_due).epsilon(0.015));
 }
 
+TEST_CASE("What creeps against damping is put to sleep by no scene", "[safety]") {
+  CHECK(factor_of(on_a_plane(1, {{"/damping", "100"}, {"/sleep", R"({"speed": 1e-2})"}})) ==
+        Approx(on_a_plane_due).epsilon(0.015));
+}
+
 TEST_CASE("A factor that damping makes too high says so, and for how long to run", "[safety]") {
   const auto told = [](const char* damping) {
     const Safety safety =
