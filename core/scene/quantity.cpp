@@ -10,7 +10,7 @@ namespace {
 using What = Quantity::What;
 using Of = Quantity::Of;
 
-constexpr std::array known{
+constexpr std::array all_quantities{
     Quantity{What::ux, "ux", "m", "displacement along x since t = 0"},
     Quantity{What::uy, "uy", "m", "displacement along y since t = 0"},
     Quantity{What::displacement, "displacement", "m", "length of the displacement since t = 0"},
@@ -49,11 +49,11 @@ bool sees(const Monitor& monitor, Of what) {
 }  // namespace
 
 std::span<const Quantity> quantities() {
-  return known;
+  return all_quantities;
 }
 
 const Quantity* find_quantity(std::string_view name) {
-  for (const Quantity& quantity : known) {
+  for (const Quantity& quantity : all_quantities) {
     if (name == quantity.name) return &quantity;
   }
   return nullptr;
