@@ -222,8 +222,8 @@ void say_result(const Scene& scene, const Safety& safety) {
     if (!fallen.moving.empty())
       fmt::print("failing at {:.4g}: {}\n", fallen.factor, listed(names_of(scene, fallen.moving)));
   } else if (safety.falls) {
-    fmt::print("{} collapses even with {:.3g} times its strength: look whether it can stand at all\n", what,
-               1 / *safety.falls);
+    fmt::print("{} collapses even with {:.3g} times its strength: look whether it can stand at all{}\n", what,
+               1 / *safety.falls, scene.settle ? ", and whether it was at rest when it had settled" : "");
   } else if (safety.stands) {
     fmt::print("{} stands even with its strength divided by {:.3g}\n", what, *safety.stands);
   }
