@@ -103,16 +103,14 @@ PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec
 Course Pieces::course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end,
                       bool last) const {
   const double way = end.way[piece], lately = way - middle.way[piece], size = pieces_[piece].size;
-  const bool far = way > seen * size,
-             goes_on = lately > steady * way && end.speed[piece] > kept * middle.speed[piece];
+  const bool far = way > seen * size, keeps_speed = end.speed[piece] > kept * middle.speed[piece];
   if (end.moved[piece] > lost * size)
     return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
   const bool steadily = last || end.speed[piece] > all_kept * middle.speed[piece];
-  if (goes_on) return far && steadily ? Course::failed : Course::goes_on;
+  if (keeps_speed && lately > steady * way) return far && steadily ? Course::failed : Course::goes_on;
   // At a constant speed, after it gave way by more than that when its strength was cut.
-  const bool crawls = end.speed[piece] > kept * middle.speed[piece] && lately > crept * way &&
-                      lately > crawling * end.speed[piece] * (end.time - middle.time);
-  if (crawls) return lately > seen * size && steadily ? Course::failed : Course::goes_on;
+  const bool crawls = lately > crept * way && lately > crawling * end.speed[piece] * (end.time - middle.time);
+  if (keeps_speed && crawls) return lately > seen * size && steadily ? Course::failed : Course::goes_on;
   // It may come to rest, or slide on at a lower speed than that with which it was let go.
   const bool slows = far && lately > slowing * way && end.speed[piece] > slowing * middle.speed[piece];
   return slows ? Course::goes_on : Course::rests;

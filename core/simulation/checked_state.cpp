@@ -305,10 +305,8 @@ void Simulation::State::warn_of_thin_ground() {
                                                      : fmt::format("'{}'", scene.bodies[found->other].name);
   summary.warnings.push_back(fmt::format(
       "'{}' is met deeper than contact sees it by {} at {} m, t = {:.6g} s: it is thin there, and its "
-      "surface "
-      "pushes to a depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin part a "
-      "body "
-      "of its own",
+      "surface pushes to a depth of {:.3g} m; raise normal_stiffness of their interface, or make the thin "
+      "part a body of its own",
       scene.bodies[found->body].name, by, place_from(scene.origin, found->place), time, found->depth));
 }
 
