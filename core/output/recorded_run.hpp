@@ -1,8 +1,8 @@
 #pragma once
 
 #include "checkpoint/checkpoint.hpp"
+#include "machine/stopwatch.hpp"
 #include "output/series.hpp"
-#include "output/stopwatch.hpp"
 #include "scene/read.hpp"
 #include "simulation/simulation.hpp"
 

@@ -1,7 +1,7 @@
 #include "output/run_record.hpp"
 
 #include "files/hash.hpp"
-#include "output/machine.hpp"
+#include "machine/processor.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

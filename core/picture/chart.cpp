@@ -1,9 +1,9 @@
 #include "picture/chart.hpp"
 
-#include "output/thinned.hpp"
 #include "picture/legend.hpp"
 #include "picture/palette.hpp"
 #include "picture/svg.hpp"
+#include "picture/thinned.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "preview/preview.hpp"
 
+#include "machine/stopwatch.hpp"
 #include "output/frame.hpp"
 #include "output/history.hpp"
-#include "output/stopwatch.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "report/curves.hpp"
 
-#include "output/thinned.hpp"
+#include "picture/thinned.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "schema/reference.hpp"
 
-#include "output/marked_tables.hpp"
+#include "files/marked_tables.hpp"
 #include "scene/quantity.hpp"
 
 #include <fmt/format.h>

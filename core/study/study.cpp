@@ -2,7 +2,7 @@
 
 #include "files/hash.hpp"
 #include "files/input_error.hpp"
-#include "output/machine.hpp"
+#include "machine/processor.hpp"
 #include "output/output_folder.hpp"
 #include "output/recorded_run.hpp"
 #include "output/records.hpp"

@@ -1,7 +1,7 @@
 #include "verification/report.hpp"
 
 #include "files/input_error.hpp"
-#include "output/marked_tables.hpp"
+#include "files/marked_tables.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "output/machine.hpp"
+#include "machine/processor.hpp"
 
 #include <fstream>
 

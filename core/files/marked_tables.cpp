@@ -1,4 +1,4 @@
-#include "output/marked_tables.hpp"
+#include "files/marked_tables.hpp"
 
 #include "files/input_error.hpp"
 #include "text/nearest.hpp"

@@ -1,4 +1,4 @@
-#include "output/thinned.hpp"
+#include "picture/thinned.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "output/stopwatch.hpp"
+#include "machine/stopwatch.hpp"
 
 #include <time.h>
 
