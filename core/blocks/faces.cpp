@@ -23,8 +23,8 @@ struct Moments {
 Moments moments_of(const Ring& ring, Vec2 about) {
   Moments sum;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 a{ring[i].x - about.x, ring[i].y - about.y};
-    const Vec2 next = ring[(i + 1) % ring.size()], b{next.x - about.x, next.y - about.y};
+    const Vec2 a = ring[i] - about;
+    const Vec2 next = ring[(i + 1) % ring.size()], b = next - about;
     const double twice = a.x * b.y - b.x * a.y;
     sum.area += twice / 2;
     sum.x += twice * (a.x + b.x) / 6;

@@ -38,14 +38,14 @@ std::vector<PlainSegment> segments_of(const std::vector<LineSide>& sides) {
 }
 
 Vec2 ahead_of(const LineEnd& end) {
-  const Vec2 way = minus(end.at, end.before);
+  const Vec2 way = end.at - end.before;
   const double length = size_of(way);
-  return {way.x / length, way.y / length};
+  return way / length;
 }
 
 /// How far ahead of the end its line crosses a segment, m; negative behind it.
 std::optional<double> crossing_ahead(const LineEnd& end, Vec2 from, Vec2 to) {
-  const Vec2 ahead = ahead_of(end), side = minus(to, from), way = minus(from, end.at);
+  const Vec2 ahead = ahead_of(end), side = to - from, way = from - end.at;
   const double sine = cross(ahead, side);
   if (sine == 0) return std::nullopt;
   const double share = cross(way, ahead) / sine;
@@ -54,22 +54,22 @@ std::optional<double> crossing_ahead(const LineEnd& end, Vec2 from, Vec2 to) {
 }
 
 Vec2 nearest_on(const LineSide& side, Vec2 point) {
-  const Vec2 span = minus(side.to, side.from);
+  const Vec2 span = side.to - side.from;
   const double square = dot(span, span);
   if (square == 0) return side.from;
-  const double share = std::clamp(dot(minus(point, side.from), span) / square, 0.0, 1.0);
+  const double share = std::clamp(dot(point - side.from, span) / square, 0.0, 1.0);
   if (share == 1) return side.to;
-  return {side.from.x + share * span.x, side.from.y + share * span.y};
+  return side.from + share * span;
 }
 
 /// Whether a side begins where the line ends and lies along it, and so leads no farther.
 bool runs_back(const LineEnd& end, const LineSide& side, double reach) {
-  const bool at_start = size_of(minus(side.from, end.at)) < size_of(minus(side.to, end.at));
+  const bool at_start = size_of(side.from - end.at) < size_of(side.to - end.at);
   const Vec2 start = at_start ? side.from : side.to;
-  if (size_of(minus(start, end.at)) > reach) return false;
-  const Vec2 back = minus(end.before, end.at);
-  const double length = size_of(back), share = std::min(1.0, size_of(minus(side.to, side.from)) / length);
-  return distance_from({end.at.x + share * back.x, end.at.y + share * back.y}, side.from, side.to) <= reach;
+  if (size_of(start - end.at) > reach) return false;
+  const Vec2 back = end.before - end.at;
+  const double length = size_of(back), share = std::min(1.0, size_of(side.to - side.from) / length);
+  return distance_from(end.at + share * back, side.from, side.to) <= reach;
 }
 
 /// What an end finds of a line about it.
@@ -86,8 +86,7 @@ using NearbyLines = std::map<std::size_t, Nearby>;
 NearbyLines lines_about(const LineEnd& end, const std::vector<Cut>& cuts, const SidesByPlace& sides,
                         double reach) {
   NearbyLines lines;
-  const double farthest = farthest_ahead * reach,
-               back = std::min(farthest, size_of(minus(end.at, end.before)) / 2);
+  const double farthest = farthest_ahead * reach, back = std::min(farthest, size_of(end.at - end.before) / 2);
   sides.each_near(end, farthest, [&](const LineSide& side, double distance) {
     Nearby& line = lines[side.line];
     if (std::pair(distance, side.number) < std::pair(line.distance, line.side)) {
@@ -96,12 +95,11 @@ NearbyLines lines_about(const LineEnd& end, const std::vector<Cut>& cuts, const 
       line.foot = nearest_on(side, end.at);
     }
     // The others are lengthened, too.
-    const Vec2 way = minus(side.to, side.from);
+    const Vec2 way = side.to - side.from;
     const double share = reach / size_of(way);
     Vec2 from = side.from, to = side.to;
-    if (side.line < cuts.size() && side.number == 0) from = {from.x - share * way.x, from.y - share * way.y};
-    if (side.line < cuts.size() && side.number + 2 == cuts[side.line].points.size())
-      to = {to.x + share * way.x, to.y + share * way.y};
+    if (side.line < cuts.size() && side.number == 0) from = from - share * way;
+    if (side.line < cuts.size() && side.number + 2 == cuts[side.line].points.size()) to += share * way;
     const std::optional<double> ahead = crossing_ahead(end, from, to);
     if (!ahead || *ahead < -back || *ahead > farthest) return;
     if (*ahead <= surely * reach) line.met = true;
@@ -126,7 +124,7 @@ void join(const LineEnd& end, const NearbyLines& lines, double reach, Cut& cut) 
   std::vector<Vec2>& points = cut.points;
   if (ahead > 0) {
     const Vec2 way = ahead_of(end);
-    (end.last ? points.back() : points.front()) = {end.at.x + ahead * way.x, end.at.y + ahead * way.y};
+    (end.last ? points.back() : points.front()) = end.at + ahead * way;
   } else if (nearest != nullptr) {
     points.insert(end.last ? points.end() : points.begin(), nearest->foot);
   }

@@ -75,9 +75,7 @@ void add_joints(const JointSet& set, const Box& box, std::vector<Cut>& cuts) {
   const Vec2 along = direction_of(set.dip), across{-along.y, along.x};
   const Span length = span_of(box, along), breadth = span_of(box, across);
   const double margin = margin_of(box), begin = length.from - margin, end = length.to + margin;
-  const auto at = [&](double distance, double place) {
-    return Vec2{place * along.x + distance * across.x, place * along.y + distance * across.y};
-  };
+  const auto at = [&](double distance, double place) { return place * along + distance * across; };
   const auto first = static_cast<std::int64_t>(std::floor((breadth.from - set.offset) / set.spacing)) - 1;
   const auto last = static_cast<std::int64_t>(std::ceil((breadth.to - set.offset) / set.spacing)) + 1;
   for (std::int64_t k = first; k <= last; ++k) {

@@ -42,7 +42,7 @@ Vec2 after(const Ring& ring, std::size_t i) {
 
 /// Angle within a ring at a vertex, rad, whichever way round it goes.
 double angle_within(const Ring& ring, std::size_t i) {
-  const Vec2 to = minus(after(ring, i), ring[i]), from = minus(before(ring, i), ring[i]);
+  const Vec2 to = after(ring, i) - ring[i], from = before(ring, i) - ring[i];
   const double turn = std::atan2(cross(to, from), dot(to, from)),
                angle = signed_area(ring) > 0 ? turn : -turn;
   return angle > 0 ? angle : angle + 2 * std::numbers::pi;
@@ -80,15 +80,15 @@ class CornerCut {
 
  private:
   Vec2 towards(Vec2 neighbour, double length) const {
-    const Vec2 way = minus(neighbour, point_);
+    const Vec2 way = neighbour - point_;
     const double part = length / size_of(way);
-    return {point_.x + part * way.x, point_.y + part * way.y};
+    return point_ + part * way;
   }
   /// With the way from the point to a neighbour of it.
   Vec2 crossing(Vec2 neighbour) const {
-    const Vec2 way = minus(neighbour, point_), line = minus(end_, start_);
-    const double along = cross(minus(start_, point_), line) / cross(way, line);
-    return {point_.x + along * way.x, point_.y + along * way.y};
+    const Vec2 way = neighbour - point_, line = end_ - start_;
+    const double along = cross(start_ - point_, line) / cross(way, line);
+    return point_ + along * way;
   }
 
   Vec2 point_, start_, end_;
@@ -153,14 +153,14 @@ class Bridges {
     for (const Place& place : places) {
       const Ring& ring = ring_of(place);
       const std::size_t vertex = *vertex_at(ring, point);
-      length = std::min({length, share * size_of(minus(before(ring, vertex), point)),
-                         share * size_of(minus(after(ring, vertex), point))});
+      length = std::min({length, share * size_of(before(ring, vertex) - point),
+                         share * size_of(after(ring, vertex) - point)});
     }
     // Of a block within a block the corner was cut off before.
     for (const Place& other : sector.others) {
       for (const Ring& ring : blocks_[other.block].loops) {
         for (const Vec2 vertex : ring) {
-          const double away = size_of(minus(vertex, point));
+          const double away = size_of(vertex - point);
           if (away > 0) length = std::min(length, away / 4);
         }
       }
@@ -181,7 +181,7 @@ class Bridges {
 /// Vertices of a ring within a distance of a point become one there. Not where it comes by twice, or would
 /// lose its area.
 void gather(Ring& ring, Vec2 point, double near) {
-  const auto is_near = [&](Vec2 vertex) { return size_of(minus(vertex, point)) <= near; };
+  const auto is_near = [&](Vec2 vertex) { return size_of(vertex - point) <= near; };
   const auto far = std::ranges::find_if_not(ring, is_near);
   std::rotate(ring.begin(), far, ring.end());
   const auto first = std::ranges::find_if(ring, is_near), last = std::find_if_not(first, ring.end(), is_near);

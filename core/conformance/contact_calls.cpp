@@ -185,8 +185,7 @@ void check_plan(const Subject& subject, Trial& trial) {
   for (std::size_t i = 0; i < driven.met.size(); i += 2) driven.history.erase(driven.met[i]);
   for (int step = 0; step < 80; ++step) {
     if (step % 20 == 10) {  // pairs part, or meet again
-      for (HeldBody& body : driven.bodies)
-        body.motion.velocity = {-2 * body.motion.velocity.x, -2 * body.motion.velocity.y};
+      for (HeldBody& body : driven.bodies) body.motion.velocity = -2 * body.motion.velocity;
     }
     if (step == 50) {
       std::reverse(driven.met.begin(), driven.met.end());

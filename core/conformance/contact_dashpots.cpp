@@ -38,7 +38,7 @@ void expect_power_of_force(const DrivenLaw& law, const PairReport& report, doubl
 /// What differs from the same place without dashpots is theirs, and what friction bears more or less where
 /// they press: up to half of that once more.
 void expect_force_told(const Evaluation& damped, const Evaluation& undamped, Trial& trial) {
-  const Vec2 difference = minus(damped.on(1), undamped.on(1));
+  const Vec2 difference = damped.on(1) - undamped.on(1);
   if (size_of(difference) <= 1e-9 * undamped.size()) return;
   trial.at_most(size_of(difference) / 1.5, damped.pairs[0].damping_force,
                 "two thirds of what dashpots add to the force on body 1 [N/m], against damping_force");
@@ -69,7 +69,7 @@ void expect_swing_booked(const Subject& subject, const Setup& setup, const Swing
     const double deep = (1 - std::cos(2 * std::numbers::pi * step / steps)) / 2;
     return Vec2{deep * swing.size.x, -deep * swing.size.y};
   };
-  for (int step = 1; step <= steps; ++step) path.take(minus(at(step), at(step - 1)));
+  for (int step = 1; step <= steps; ++step) path.take(at(step) - at(step - 1));
   // Friction that begins or ends to slip takes a dashpot away or brings it within a step: first order.
   trial.at_most(std::abs(path.work - path.gain() - path.booked()),
                 2e-5 * path.turned_over + path.damped / steps + rounded * path.way,

@@ -135,8 +135,8 @@ void check_galilean(const Subject& subject, Trial& trial) {
     slow.step(dt);
     fast.step(dt);
     for (HeldBody& body : fast.bodies) {
-      body.motion.velocity = {body.motion.velocity.x + boost.x, body.motion.velocity.y + boost.y};
-      body.motion.u = {body.motion.u.x - dt * boost.x, body.motion.u.y - dt * boost.y};
+      body.motion.velocity += boost;
+      body.motion.u = body.motion.u - dt * boost;
     }
     const Evaluation here = slow.step(dt);
     expect_same(trial, here, fast.step(dt), {},
@@ -187,15 +187,15 @@ void check_tension(const Subject& subject, Trial& trial) {
     if (size == 0) return;  // a law need not see every overlap
     const auto centre = [&](std::size_t body) {
       const HeldBody& at = law.bodies[body];
-      return Vec2{at.centre.x + at.motion.u.x, at.centre.y + at.motion.u.y};
+      return at.centre + at.motion.u;
     };
-    const Vec2 from = centre(0), to = centre(1), apart{to.x - from.x, to.y - from.y};
+    const Vec2 from = centre(0), to = centre(1), apart = to - from;
     trial.feed(fed + ", at rest");
     trial.at_most(-dot(still, apart) / std::sqrt(dot(apart, apart)), 1e-12 * size,
                   "pull on body 1 [N/m] towards body 0");
     for (const double speed : {0.1, 3.0, 1e3}) {
       trial.feed(fmt::format("{}, parting at {:g} m/s", fed, speed));
-      law.bodies[1].motion.velocity = {speed * still.x / size, speed * still.y / size};
+      law.bodies[1].motion.velocity = speed * still / size;
       const Evaluation parting = law.look();
       trial.at_most(-dot(parting.on(1), still) / size, 1e-12 * size,
                     "pull on body 1 [N/m] along the way it goes");

@@ -28,7 +28,7 @@ Reported reported(const Evaluation& e) {
   Reported sum;
   for (const ContactReport& contact : e.contacts) {
     const Vec2 force{contact.px + contact.tx, contact.py + contact.ty};
-    sum.force = {sum.force.x + force.x, sum.force.y + force.y};
+    sum.force += force;
     sum.moment += contact.moment + cross({contact.x, contact.y}, force);
   }
   return sum;
@@ -67,11 +67,11 @@ void check_reports(const Subject& subject, Trial& trial) {
       const Evaluation e = law.step();
       const Reported said = reported(e);
       const Vec2 due = e.on(1);
-      trial.at_most(size_of(minus(said.force, due)), 1e-6 * e.size() + rounded,
+      trial.at_most(size_of(said.force - due), 1e-6 * e.size() + rounded,
                     "sum of the reported forces less that of the loads on body b [N/m]");
       double due_moment = 0;
       for (const LoadedCorner& load : e.corners) {
-        if (load.body == 1) due_moment += cross(minus(load.at, law.bodies[0].centre), load.force);
+        if (load.body == 1) due_moment += cross(load.at - law.bodies[0].centre, load.force);
       }
       // Bodies are some metres large.
       trial.at_most(std::abs(said.moment - due_moment), 1e-6 * e.size() + rounded,

@@ -20,13 +20,13 @@ struct DrivenPath {
 
   /// Further by d, in one step.
   void take(Vec2 d) {
-    law.bodies[1].motion.velocity = {d.x / dt, d.y / dt};
+    law.bodies[1].motion.velocity = d / dt;
     const Evaluation before = std::move(last);
     last = law.step(dt);
     const Vec2 from = before.on(1), to = last.on(1);
-    const double part = -dot({from.x + to.x, from.y + to.y}, d) / 2;
+    const double part = -dot(from + to, d) / 2;
     work += part;
-    blurred += std::abs(dot({to.x - from.x, to.y - from.y}, d)) / 2;
+    blurred += std::abs(dot(to - from, d)) / 2;
     turned_over += std::abs(part);
     way += size_of(d);
     lost_in_slip += last.pairs[0].slip_loss;
@@ -36,7 +36,7 @@ struct DrivenPath {
   /// To u in straight steps.
   void go(Vec2 to, int steps = 400) {
     const Vec2 from = law.bodies[1].motion.u;
-    for (int i = 0; i < steps; ++i) take({(to.x - from.x) / steps, (to.y - from.y) / steps});
+    for (int i = 0; i < steps; ++i) take((to - from) / steps);
   }
 
   double gain() const { return last.pairs[0].stored - stored; }

@@ -53,17 +53,17 @@ HeldBody in_strips(const HeldBody& body, int parts, double depth) {
     const Vec2 from = whole[i].at, to = whole[(i + 1) % whole.size()].at;
     for (int k = 0; k < parts; ++k) {
       const double share = static_cast<double>(k) / parts;
-      ring.push_back({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)});
+      ring.push_back(from + share * (to - from));
     }
   }
   const std::size_t n = ring.size();
   std::vector<Vec2> inner;  // on the inner bisectors, `depth` behind both sides
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 before = minus(ring[i], ring[(i + n - 1) % n]), after = minus(ring[(i + 1) % n], ring[i]);
+    const Vec2 before = ring[i] - ring[(i + n - 1) % n], after = ring[(i + 1) % n] - ring[i];
     const double p = size_of(before), q = size_of(after);
     const Vec2 sum{-before.y / p - after.y / q, before.x / p + after.x / q};
     const double scale = 2 * depth / dot(sum, sum);
-    inner.push_back({ring[i].x + scale * sum.x, ring[i].y + scale * sum.y});
+    inner.push_back(ring[i] + scale * sum);
   }
   HeldBody result = body;
   result.strips = true;

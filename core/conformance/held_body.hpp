@@ -15,7 +15,7 @@ struct HeldBody {
   double mass = 2000;   ///< kg per metre of thickness
   bool strips = false;  ///< the pieces are strips behind the sides of a body of many elements
 
-  Vec2 reference_of(Vec2 world) const { return {world.x - centre.x, world.y - centre.y}; }
+  Vec2 reference_of(Vec2 world) const { return world - centre; }
 };
 
 /// A body from its outline (counter-clockwise), side i of surface class `surfaces[i]` (all 0 if left out).

@@ -37,14 +37,14 @@ Feature side(const Ring& ring, Random& random) {
   const std::size_t i = random.below(ring.size());
   const Vec2 p = ring[i], q = ring[(i + 1) % ring.size()];
   const double t = random.between(0.3, 0.7);
-  return {{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, std::atan2(p.x - q.x, q.y - p.y)};
+  return {p + t * (q - p), std::atan2(p.x - q.x, q.y - p.y)};
 }
 
 Feature corner(const Ring& ring, Random& random) {
   const std::size_t n = ring.size(), i = random.below(n);
   const auto unit = [](Vec2 p, Vec2 q) {
     const double size = std::hypot(q.x - p.x, q.y - p.y);
-    return Vec2{(q.x - p.x) / size, (q.y - p.y) / size};
+    return (q - p) / size;
   };
   const Vec2 in = unit(ring[(i + n - 1) % n], ring[i]), out = unit(ring[(i + 1) % n], ring[i]);
   return {ring[i], std::atan2(in.y + out.y, in.x + out.x)};
@@ -58,7 +58,7 @@ HeldPair stand(const std::string& name, const Ring& a, Feature on_a, Ring b, Fea
   const Vec2 goal{on_a.at.x - depth * std::cos(on_a.outward), on_a.at.y - depth * std::sin(on_a.outward)};
   for (Vec2& p : b) {
     const Vec2 q = turned(p, turn);
-    p = {q.x - foot.x + goal.x, q.y - foot.y + goal.y};
+    p = q - foot + goal;
   }
   return {name, {held(a), held(b)}, depth};
 }

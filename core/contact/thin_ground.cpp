@@ -17,7 +17,7 @@ bool is_within(const Model& model, const MotionState& motion, std::uint32_t piec
   Vec2 from = corner_at(motion, end - 1, offset);
   for (std::uint32_t c = begin; c < end; ++c) {
     const Vec2 to = corner_at(motion, c, offset);
-    if (cross(minus(to, from), minus(point, from)) < 0) return false;
+    if (cross(to - from, point - from) < 0) return false;
     from = to;
   }
   return true;
@@ -31,13 +31,12 @@ std::optional<ThinGround> ground_of(const Model& model, const MotionState& motio
   const double depth = model.strips[model.piece_strip[piece]].depth;
   if (penetration < far * depth) return {};
   const std::uint32_t first = model.piece_start[piece];
-  const Vec2 start = corner_at(motion, first, offset),
-             side = minus(corner_at(motion, first + 1, offset), start);
+  const Vec2 start = corner_at(motion, first, offset), side = corner_at(motion, first + 1, offset) - start;
   const double length = std::sqrt(dot(side, side));
   if (!(length > 0)) return {};
   const Vec2 behind{-side.y / length * far * depth, side.x / length * far * depth};
   for (const double share : {0.25, 0.5, 0.75}) {
-    const Vec2 point{start.x + share * side.x + behind.x, start.y + share * side.y + behind.y};
+    const Vec2 point = start + share * side + behind;
     if (is_within(model, motion, other, other_offset, point))
       return ThinGround{model.piece_body[piece], model.piece_body[other], point, depth};
   }
@@ -61,7 +60,7 @@ std::optional<ThinGround> find_thin_ground(const Model& model, const MotionState
       std::optional<ThinGround> found = ground_of(model, motion, penetration, a, {}, b, offset);
       if (!found) found = ground_of(model, motion, penetration, b, offset, a, {});
       if (!found) continue;
-      found->place = {found->place.x + frame.x, found->place.y + frame.y};
+      found->place = found->place + frame;
       return found;
     }
   }

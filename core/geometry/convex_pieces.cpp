@@ -54,7 +54,7 @@ Vec2 inner_bisector(const ConvexPiece& ring, std::size_t i) {
   const Vec2 out = direction(ring[i].at, ring[next(ring, i)].at);
   const Vec2 sum{-in.y - out.y, in.x + out.x};
   const double size = std::sqrt(sum.x * sum.x + sum.y * sum.y);
-  return size > 1e-9 ? Vec2{sum.x / size, sum.y / size} : in;
+  return size > 1e-9 ? sum / size : in;
 }
 
 struct Hit {
@@ -71,11 +71,11 @@ Hit first_ahead(const RingSet& region, Place from, Vec2 along) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const std::size_t end = next(ring, i);
       if (r == from.ring && (i == from.corner || end == from.corner)) continue;
-      const Vec2 side{ring[end].at.x - ring[i].at.x, ring[end].at.y - ring[i].at.y};
+      const Vec2 side = ring[end].at - ring[i].at;
       // One along the way is met at its end, which is that of another.
       const double facing = cross(side, along);
       if (!(facing < -1e-9 * size_of(side))) continue;
-      const Vec2 away{ring[i].at.x - start.x, ring[i].at.y - start.y};
+      const Vec2 away = ring[i].at - start;
       const double distance = cross(away, side) / cross(along, side);
       const double share = cross(away, along) / cross(along, side);
       if (share < -1e-9 || share > 1 + 1e-9 || !(distance > 0) || distance >= nearest.distance) continue;
@@ -112,7 +112,7 @@ Place cut_target(RingSet& region, Place from, Vec2 along) {
   if (share > 1 - 1e-9) return that_faces(region, {side.ring, next(ring, side.corner)}, along);
   PieceCorner corner = ring[side.corner];
   const Vec2 end = ring[next(ring, side.corner)].at;
-  corner.at = {corner.at.x + share * (end.x - corner.at.x), corner.at.y + share * (end.y - corner.at.y)};
+  corner.at += share * (end - corner.at);
   ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(side.corner) + 1, corner);
   return {side.ring, side.corner + 1};
 }
@@ -124,7 +124,7 @@ std::pair<Vec2, double> middle_and_extent(const RingSet& whole) {
   Vec2 low{0, 0}, high{0, 0};
   for (const ConvexPiece& ring : whole) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 p = minus(ring[i].at, origin), q = minus(ring[next(ring, i)].at, origin);
+      const Vec2 p = ring[i].at - origin, q = ring[next(ring, i)].at - origin;
       area += cross(p, q) / 2;
       x += cross(p, q) * (p.x + q.x) / 6;
       y += cross(p, q) * (p.y + q.y) / 6;
@@ -161,7 +161,7 @@ std::vector<ReflexCorner> reflex_corners_by_reach(const RingSet& whole) {
   for (std::size_t r = 0; r < whole.size(); ++r) {
     for (std::size_t i = 0; i < whole[r].size(); ++i) {
       if (!is_reflex(whole[r], i)) continue;
-      const Vec2 at = whole[r][i].at, bisector = inner_bisector(whole[r], i), out = minus(at, middle);
+      const Vec2 at = whole[r][i].at, bisector = inner_bisector(whole[r], i), out = at - middle;
       found.push_back(
           {at, {first_ahead(whole, {r, i}, bisector).distance, size_of(out), cross(out, bisector)}});
     }
@@ -190,7 +190,7 @@ bool inside(const ConvexPiece& ring, Vec2 p) {
 double area_of(const ConvexPiece& ring) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-    twice += cross(minus(ring[i].at, ring[0].at), minus(ring[i + 1].at, ring[0].at));
+    twice += cross(ring[i].at - ring[0].at, ring[i + 1].at - ring[0].at);
   return twice / 2;
 }
 
@@ -308,11 +308,11 @@ std::optional<Vec2> misled_corner(const ConvexPiece& piece) {
   const double allowed = 1e-8 * extent + 2e-13 * far;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const Vec2 from = piece[i].at, to = piece[next(piece, i)].at;
-    if (cross(minus(from, piece[0].at), minus(to, piece[0].at)) < -0.1 * allowed * extent) return from;
-    if (size_of(minus(to, from)) > 1e-6 * far) continue;
+    if (cross(from - piece[0].at, to - piece[0].at) < -0.1 * allowed * extent) return from;
+    if (size_of(to - from) > 1e-6 * far) continue;
     // Of a ring that is convex else, corners are the further inside the further on, up to the opposite one.
     const Vec2 along = direction(from, to);
-    const auto inside_by = [&](std::size_t k) { return cross(along, minus(piece[k].at, from)); };
+    const auto inside_by = [&](std::size_t k) { return cross(along, piece[k].at - from); };
     std::size_t ahead = next(piece, i), behind = i;
     do ahead = next(piece, ahead);
     while (ahead != i && std::abs(inside_by(ahead)) <= allowed);

@@ -159,7 +159,7 @@ class Builder {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       std::array<std::uint32_t, 3>& corners = mesh_.triangles[t];
       const Vec2 a = mesh_.nodes[corners[0]], b = mesh_.nodes[corners[1]], c = mesh_.nodes[corners[2]];
-      const Vec2 p{b.x - a.x, b.y - a.y}, q{c.x - a.x, c.y - a.y};
+      const Vec2 p = b - a, q = c - a;
       const double twice_area = p.x * q.y - p.y * q.x;
       const double square = std::max({p.x * p.x + p.y * p.y, q.x * q.x + q.y * q.y,
                                       (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)});

@@ -35,7 +35,7 @@ std::vector<Span> spans_of(const Loops& loops, const Box& box) {
       Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
       if (a.x > b.x) std::swap(a, b);
       if (a.x == b.x || b.x <= box.low.x || a.x >= box.high.x) continue;
-      spans.push_back({{a.x - box.low.x, a.y - box.low.y}, {b.x - box.low.x, b.y - box.low.y}});
+      spans.push_back({a - box.low, b - box.low});
     }
   }
   return spans;
@@ -122,7 +122,7 @@ std::vector<Reach> reaches_along(Vec2 direction, const std::vector<const Loops*>
 Vec2 across(const Ring& ring) {
   Vec2 longest{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], side{b.x - a.x, b.y - a.y};
+    const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], side = b - a;
     if (std::hypot(side.x, side.y) > std::hypot(longest.x, longest.y)) longest = side;
   }
   const double length = std::hypot(longest.x, longest.y);
@@ -181,7 +181,7 @@ std::vector<BodyOverlap> overlapping_bodies(const std::vector<const Loops*>& bod
           {std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y)},
           {std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y)}};
       const double tolerance = 1e-6 * std::min(widths[i], widths[j]);
-      const Vec2 size{common.high.x - common.low.x, common.high.y - common.low.y};
+      const Vec2 size = common.high - common.low;
       if (size.x <= tolerance || size.y <= tolerance) continue;
       const double area = overlap_area(*bodies[i], *bodies[j], common);
       if (area > tolerance * std::hypot(size.x, size.y))

@@ -30,7 +30,7 @@ inline std::string place_text(Vec2 at, double size, int digits = 10) {
 /// A place that is known from an origin, m, to six digits of its distance from there.
 inline std::string place_from(Vec2 origin, Vec2 at) {
   const double distance = std::max({std::abs(at.x), std::abs(at.y), 1e-9});
-  return place_text({origin.x + at.x, origin.y + at.y}, distance, 6);
+  return place_text(origin + at, distance, 6);
 }
 
 }  // namespace talus

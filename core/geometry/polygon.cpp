@@ -9,9 +9,9 @@ namespace talus {
 AreaMoments ring_moments(std::span<const Vec2> ring, Vec2 centre) {
   AreaMoments m{0, 0, 0, 0, 0, 0};
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 p{ring[i].x - centre.x, ring[i].y - centre.y};
+    const Vec2 p = ring[i] - centre;
     const Vec2& end = ring[i + 1 == ring.size() ? 0 : i + 1];
-    const Vec2 q{end.x - centre.x, end.y - centre.y};
+    const Vec2 q = end - centre;
     const double twice = p.x * q.y - p.y * q.x;
     m.area += twice / 2;
     m.x += twice * (p.x + q.x) / 6;

@@ -36,7 +36,7 @@ void make_regular(Element& element, int sign, const RegularLattice& lattice) {
                                 Vec2{s * g[2], s * g[3]}};
   for (Vec2& gradient : element.gradient) {
     const auto off = [&](Vec2 other) {
-      const Vec2 apart = minus(other, gradient);
+      const Vec2 apart = other - gradient;
       return dot(apart, apart);
     };
     gradient = *std::min_element(all.begin(), all.end(), [&](Vec2 p, Vec2 q) { return off(p) < off(q); });
@@ -116,7 +116,7 @@ void list_outer_patches(Model& model, const Body& body, const std::vector<Elemen
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 g = elements[e].gradient[i];
       Sum& sum = sums[elements[e].patch[i] - ranges.patch_begin];
-      sum.all = {sum.all.x + area[e] * g.x, sum.all.y + area[e] * g.y};
+      sum.all += area[e] * g;
       sum.size += area[e] * (std::abs(g.x) + std::abs(g.y));
     }
   }
@@ -125,7 +125,7 @@ void list_outer_patches(Model& model, const Body& body, const std::vector<Elemen
   for (std::uint32_t p = 0; p < sums.size(); ++p) {
     const auto& [all, size] = sums[p];
     if (!(std::abs(all.x) + std::abs(all.y) > rounding * size)) continue;
-    model.outer_patches.push_back({ranges.patch_begin + p, {all.x / whole, all.y / whole}});
+    model.outer_patches.push_back({ranges.patch_begin + p, all / whole});
   }
   ranges.outer_end = static_cast<std::uint32_t>(model.outer_patches.size());
 }

@@ -70,7 +70,7 @@ class Sink final : public CoverSink {
 /// What a builder is given, kept alive while it works.
 struct GivenShape {
   GivenShape(const SceneBody& scene_body, const Body& body) {
-    const auto local = [&](Vec2 p) { return Vec2{p.x - body.centre.x, p.y - body.centre.y}; };
+    const auto local = [&](Vec2 p) { return p - body.centre; };
     const auto append = [&](const std::vector<Vec2>& points, std::vector<double>& to_x,
                             std::vector<double>& to_y, std::vector<std::uint32_t>& start) {
       for (const Vec2& p : points) {

@@ -17,7 +17,7 @@ Triangle triangle_of(const LaidCover& cover, std::size_t element, std::size_t fi
   const std::array<std::uint32_t, 3> patch{patches[first], patches[(first + 1) % 3],
                                            patches[(first + 2) % 3]};
   const Vec2 origin = cover.patches[patch[0]];
-  return {patch, minus(cover.patches[patch[1]], origin), minus(cover.patches[patch[2]], origin)};
+  return {patch, cover.patches[patch[1]] - origin, cover.patches[patch[2]] - origin};
 }
 
 bool is_whole(const LaidCover& cover, std::size_t element) {
@@ -63,19 +63,19 @@ std::optional<LatticePlaces> find_lattice(const LaidCover& cover) {
     if (sign == 0) continue;
     place.kind = sign > 0 ? LatticePlaces::Kind::lower : LatticePlaces::Kind::upper;
     place.patch = triangle.patch;
-    along = {along.x + sign * triangle.second.x, along.y + sign * triangle.second.y};
-    up = {up.x + sign * triangle.third.x, up.y + sign * triangle.third.y};
+    along += sign * triangle.second;
+    up += sign * triangle.third;
     ++whole;
   }
   if (2 * whole < count) return {};
   const auto share = 1 / static_cast<double>(whole);  // the mean has fewer rounding errors than any one
-  places.along = {share * along.x, share * along.y};
-  places.up = {share * up.x, share * up.y};
+  places.along = share * along;
+  places.up = share * up;
 
   const Vec2 origin = cover.patches[model.patch[0]];
   const double cell = cross(places.along, places.up);
   const auto place_of = [&](Vec2 at) {
-    const Vec2 from = minus(at, origin);
+    const Vec2 from = at - origin;
     return LatticePlaces::Place{static_cast<std::int32_t>(std::lround(cross(places.along, from) / cell)),
                                 static_cast<std::int32_t>(std::lround(cross(from, places.up) / cell))};
   };

@@ -62,7 +62,7 @@ std::vector<Vec2> loaded_points(const Scene& scene, std::uint32_t body, Vec2 cen
   std::vector<Vec2> points;
   const auto append = [&](const std::vector<PointLoad>& loads) {
     for (const PointLoad& load : loads) {
-      if (load.body == body) points.push_back({load.point.x - centre.x, load.point.y - centre.y});
+      if (load.body == body) points.push_back(load.point - centre);
     }
   };
   append(scene.loads);
@@ -258,7 +258,7 @@ std::vector<BoundarySide> boundary_of(const Scene& scene, const Model& model, st
     const std::size_t count = loop.vertices.size();
     const auto point = [&](std::size_t i) {
       const Vec2 at = loop.vertices[i % count];
-      return MaterialPoint{index, {at.x - body.centre.x, at.y - body.centre.y}, {}};
+      return MaterialPoint{index, at - body.centre, {}};
     };
     for (std::size_t i = 0; i < count; ++i) sides.push_back({point(i), point(i + 1), loop.surface_class[i]});
   });

@@ -106,8 +106,8 @@ void MotionState::average(const Model& model, std::uint32_t index) {
   };
   for (std::uint32_t i = ranges.outer_begin; i < ranges.outer_end; ++i) {
     const auto& [patch, g] = model.outer_patches[i];
-    add(mean.h, minus(patch_displacement[patch], mean.u), g);
-    add(mean.rate, minus(patch_velocity[patch], mean.velocity), g);
+    add(mean.h, patch_displacement[patch] - mean.u, g);
+    add(mean.rate, patch_velocity[patch] - mean.velocity, g);
   }
   bodies[index] = mean;
 }

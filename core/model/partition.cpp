@@ -57,7 +57,7 @@ void order_along_curve(PartitionWork& work) {
   for (const LaidCover::LaidElement& element : cover.elements) {
     const Vec2 a = cover.patches[element.patches[0]], b = cover.patches[element.patches[1]],
                c = cover.patches[element.patches[2]];
-    centres.push_back({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3});
+    centres.push_back((a + b + c) / 3);
   }
   const std::vector<std::uint64_t> along = along_curve(centres);
   std::sort(work.order.begin(), work.order.end(), [&](std::uint32_t d, std::uint32_t e) {

@@ -28,7 +28,7 @@ double squared_distance(const std::vector<Ring>& region, Vec2 p) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec2 a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1];
       if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-      const Vec2 side{b.x - a.x, b.y - a.y};
+      const Vec2 side = b - a;
       const double length = side.x * side.x + side.y * side.y;
       const double along = length > 0 ? ((p.x - a.x) * side.x + (p.y - a.y) * side.y) / length : 0;
       const double place = std::clamp(along, 0.0, 1.0);

@@ -18,15 +18,12 @@ constexpr double longest_miter = 3;    ///< of the depth, along the bisector of 
 constexpr double smallest_turn = 0.1;  ///< rad, between sides that compete past a short one
 constexpr std::size_t most_competitors = 4;  ///< per strip and direction
 
-Vec2 along(Vec2 p, double length, Vec2 direction) {
-  return {p.x + length * direction.x, p.y + length * direction.y};
-}
 Vec2 inward(Vec2 tangent) {
   return {-tangent.y, tangent.x};
 }
 Vec2 unit(Vec2 p) {
   const double size = std::sqrt(dot(p, p));
-  return size > 0 ? Vec2{p.x / size, p.y / size} : Vec2{};
+  return size > 0 ? p / size : Vec2{};
 }
 
 struct ReferenceSide {
@@ -36,7 +33,7 @@ struct ReferenceSide {
 
 ReferenceSide reference_side(const Model& model, std::uint32_t side) {
   const Vec2 start = model.sides[side].start.reference, end = model.sides[side].end.reference;
-  const Vec2 span = minus(end, start);
+  const Vec2 span = end - start;
   return {start, end, unit(span), std::sqrt(dot(span, span))};
 }
 
@@ -74,9 +71,9 @@ void find_competitors(const Model& model, std::uint32_t side, double depth, bool
 }
 
 double distance_to_side(Vec2 point, const ReferenceSide& side) {
-  const Vec2 way = minus(point, side.start);
-  const Vec2 foot = along(side.start, std::clamp(dot(way, side.tangent), 0.0, side.length), side.tangent);
-  const Vec2 apart = minus(point, foot);
+  const Vec2 way = point - side.start;
+  const Vec2 foot = side.start + std::clamp(dot(way, side.tangent), 0.0, side.length) * side.tangent;
+  const Vec2 apart = point - foot;
   return std::sqrt(dot(apart, apart));
 }
 
@@ -86,14 +83,14 @@ Vec2 miter(Vec2 before, Vec2 after) {
   const Vec2 sum{-before.y - after.y, before.x + after.x};
   const double squared = dot(sum, sum);  // 4 cos² of half the turn
   const double longest = cross(before, after) > 0 ? longest_miter : std::sqrt(2.0);
-  if (squared > 4 / (longest * longest)) return {2 * sum.x / squared, 2 * sum.y / squared};
+  if (squared > 4 / (longest * longest)) return 2 * sum / squared;
   const double turn = cross(before, after);
   if (turn > 1e-6) {  // a sharp corner
-    const Vec2 direction = unit(squared > 1e-12 ? sum : minus(after, before));
-    return {longest_miter * direction.x, longest_miter * direction.y};
+    const Vec2 direction = unit(squared > 1e-12 ? sum : after - before);
+    return longest_miter * direction;
   }
   // Around the tip of a crack, no farther than behind its faces.
-  return squared > 1e-12 ? unit(sum) : unit(minus(before, after));
+  return squared > 1e-12 ? unit(sum) : unit(before - after);
 }
 
 /// A way along which a strip reaches its depth: t m behind the side it is at from + t direction.
@@ -141,15 +138,14 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
     const ReferenceSide there = reference_side(model, other);
     const auto meet = [&](const Ray& ray) {
       const Vec2 other_normal = inward(there.tangent);
-      const double behind = dot(minus(ray.from, there.start), other_normal),
+      const double behind = dot(ray.from - there.start, other_normal),
                    opening = 1 - dot(ray.direction, other_normal);
       if (!(behind > rounding) || !(opening > 1e-6)) return;
       const double depth = behind / opening;
-      const double place = dot(minus(along(ray.from, depth, ray.direction), there.start), there.tangent);
+      const double place = dot(ray.from + depth * ray.direction - there.start, there.tangent);
       if (place >= 0 && place <= there.length) least = std::min(least, depth);
     };
-    for (const double share : {0.0, 0.5, 1.0})
-      meet({along(own.start, share * own.length, own.tangent), normal});
+    for (const double share : {0.0, 0.5, 1.0}) meet({own.start + share * own.length * own.tangent, normal});
     for (const End& end : ends) {
       meet(end.bisector);
       const double distance = end.tip ? distance_to_side(end.bisector.from, there) : 0;
@@ -158,11 +154,11 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
     if (near[model.previous_side[other] - ranges.side_begin] != 0) continue;
     for (const auto& [bisector, reflex, tip] : ends) {
       // Around a reflex corner the strip fans out.
-      const Vec2 way = minus(there.start, bisector.from);
+      const Vec2 way = there.start - bisector.from;
       const double ahead = reflex ? dot(way, bisector.direction) : 0;
       if (ahead > rounding) least = std::min(least, dot(way, way) / (2 * ahead));
     }
-    const Vec2 way = minus(there.start, own.start);
+    const Vec2 way = there.start - own.start;
     const double behind = dot(way, normal), along_side = dot(way, own.tangent);
     if (!(behind > rounding)) continue;
     const double past = std::max({0.0, -along_side, along_side - own.length});
@@ -177,9 +173,7 @@ using Corners = std::array<Vec2, 4 + 2 * most_competitors + 1>;
 std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 competitor_start,
                         Vec2 competitor_tangent) {
   const Vec2 own = inward(tangent), other = inward(competitor_tangent), start = corners[0];
-  const auto lead = [&](Vec2 p) {
-    return dot(minus(p, competitor_start), other) - dot(minus(p, start), own);
-  };
+  const auto lead = [&](Vec2 p) { return dot(p - competitor_start, other) - dot(p - start, own); };
   // The corners that go are in a row, whatever rounding makes of those that lie on the line.
   std::array<double, std::tuple_size_v<Corners>> leads;
   std::size_t first_behind = count, last_behind = 0;
@@ -192,8 +186,8 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
   if (first_behind < 2 || first_behind == count) return count;
   const auto crossing = [&](std::size_t behind, std::size_t ahead) {
     const double share = leads[ahead] / (leads[ahead] - leads[behind]);
-    const Vec2 way = minus(corners[behind], corners[ahead]);
-    return along(corners[ahead], share, way);
+    const Vec2 way = corners[behind] - corners[ahead];
+    return corners[ahead] + share * way;
   };
   const Vec2 entry = crossing(first_behind, first_behind - 1),
              exit = crossing(last_behind, last_behind + 1 == count ? 0 : last_behind + 1);
@@ -212,7 +206,7 @@ std::size_t cut_towards(Corners& corners, std::size_t count, Vec2 tangent, Vec2 
 /// it is one of them.
 void join_coincident(Corners& corners, std::size_t count, double depth) {
   const auto coincide = [&](std::size_t i, std::size_t j) {
-    const Vec2 apart = minus(corners[i], corners[j]);
+    const Vec2 apart = corners[i] - corners[j];
     return dot(apart, apart) < 1e-18 * depth * depth;
   };
   for (std::size_t i = 2; i < count; ++i) {
@@ -278,11 +272,11 @@ void shape_strip(const Model& model, std::uint32_t piece, MotionState& motion) {
   const auto corner = [&](std::uint32_t c) { return Vec2{motion.corners[c].x, motion.corners[c].y}; };
   const auto tangent_of = [&](std::uint32_t side) {
     const std::uint32_t c = first_corner(side);
-    return unit(minus(corner(c + 1), corner(c)));
+    return unit(corner(c + 1) - corner(c));
   };
   const Strip& strip = model.strips[model.piece_strip[piece]];
   const std::uint32_t first = model.piece_start[piece], last = model.piece_start[piece + 1];
-  const Vec2 start = corner(first), end = corner(first + 1), span = minus(end, start);
+  const Vec2 start = corner(first), end = corner(first + 1), span = end - start;
   const Vec2 tangent = unit(span), normal = inward(tangent);
   const Vec2 at_start = miter(tangent_of(model.previous_side[strip.side]), tangent);
   const Vec2 at_end = miter(tangent, tangent_of(model.next_side[strip.side]));
@@ -297,7 +291,7 @@ void shape_strip(const Model& model, std::uint32_t piece, MotionState& motion) {
       end_depth = std::min(end_depth, length / closing / end_behind);
     }
   }
-  Corners corners{start, end, along(end, end_depth, at_end), along(start, start_depth, at_start)};
+  Corners corners{start, end, end + end_depth * at_end, start + start_depth * at_start};
   std::size_t count = 4;
   for (std::uint32_t i = strip.competitor_begin; i < strip.competitor_end; ++i) {
     const std::uint32_t other = model.competitors[i];

@@ -91,7 +91,7 @@ class BodyGrid {
           numbers_ = numbers_.subspan(1);
         }
         if (part_.back() < points()) continue;
-        append(grid_.points, {origin.x + point.position.x, origin.y + point.position.y});
+        append(grid_.points, origin + point.position);
         append(displacement_, point.displacement);
         append(velocity_, point.velocity);
       }
@@ -162,7 +162,7 @@ Grid contact_grid(const Frame& frame) {
   for (const Contact& contact : frame.contacts) {
     const std::array corner{static_cast<std::int64_t>(grid.points.size() / 3)};
     grid.add_cell(CellType::vertex, corner);
-    append(grid.points, {frame.origin.x + contact.point.x, frame.origin.y + contact.point.y});
+    append(grid.points, frame.origin + contact.point);
     append(normal, contact.normal_force);
     append(tangential, contact.tangential_force);
     moment.push_back(contact.moment);

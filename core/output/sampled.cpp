@@ -12,9 +12,9 @@ ContactSum contact_sum(std::span<const Contact> contacts, std::uint32_t body, Ve
     const double sign = (contact.body_b == body ? 1 : 0) - (contact.body_a == body ? 1 : 0);
     if (sign == 0) continue;
     const Vec2 &p = contact.normal_force, &t = contact.tangential_force;
-    const Vec2 force{sign * (p.x + t.x), sign * (p.y + t.y)};
-    sum.force = {sum.force.x + force.x, sum.force.y + force.y};
-    sum.moment += sign * contact.moment + cross(minus(contact.point, about), force);
+    const Vec2 force = sign * (p + t);
+    sum.force += force;
+    sum.moment += sign * contact.moment + cross(contact.point - about, force);
   }
   return sum;
 }

@@ -92,8 +92,8 @@ PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec
       const auto grow = [&](double& largest, Vec2 p) {
         largest = std::max(largest, std::hypot(counts[0] ? p.x : 0, counts[1] ? p.y : 0));
       };
-      grow(motions.moved[piece], minus(point.position, from));
-      grow(motions.way[piece], minus(point.position, began[vertex++]));
+      grow(motions.moved[piece], point.position - from);
+      grow(motions.way[piece], point.position - began[vertex++]);
       grow(motions.speed[piece], point.velocity);
     });
   }

@@ -23,8 +23,8 @@ Middle middle_of(const MovedPart& part) {
   Middle middle;
   const auto count = static_cast<double>(part.loops.front().size());
   for (const MovedPart::Point& point : part.loops.front()) {
-    middle.at = {middle.at.x + point.from.x / count, middle.at.y + point.from.y / count};
-    middle.moved = {middle.moved.x + point.moved.x / count, middle.moved.y + point.moved.y / count};
+    middle.at += point.from / count;
+    middle.moved += point.moved / count;
   }
   return middle;
 }

@@ -181,10 +181,10 @@ class Reduction {
     for (const Contact& contact : whole.contacts()) {
       const double size = size_of(contact.normal_force);
       if (size == 0 || !(contact.penetration > 0)) continue;  // a bond that pulls points the other way
-      const Vec2 normal{contact.normal_force.x / size, contact.normal_force.y / size};
+      const Vec2 normal = contact.normal_force / size;
       for (const auto& [body, sign] : {std::pair{contact.body_a, -1.0}, {contact.body_b, 1.0}}) {
         if (scene_.bodies[body].fixed) continue;
-        const Vec2 out{sign * normal.x, sign * normal.y};
+        const Vec2 out = sign * normal;
         if (!face[body]) face[body] = out;
         if (out.x * face[body]->x + out.y * face[body]->y > one_face) continue;
         warnings_.push_back(fmt::format(
@@ -263,7 +263,7 @@ class Reduction {
         for (std::size_t p = 0; p < parts[i].loops[l].size(); ++p) {
           MovedPart::Point& point = parts[i].loops[l][p];
           const Vec2 from = stood_[i].loops[l][p].from;
-          point = {from, minus(point.from, from)};
+          point = {from, point.from - from};
         }
       }
     }

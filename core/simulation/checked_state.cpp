@@ -25,8 +25,7 @@ constexpr double far_to_settle = 0.1;
 std::string Simulation::State::place(std::uint32_t body) const {
   const Vec2 centre = model.bodies[body].centre;
   const Vec2 u = motion.displacement(model.point(body, {}));
-  return fmt::format("'{}' at {} m", scene.bodies[body].name,
-                     place_from(scene.origin, {centre.x + u.x, centre.y + u.y}));
+  return fmt::format("'{}' at {} m", scene.bodies[body].name, place_from(scene.origin, centre + u));
 }
 
 /// " of" the first body with a velocity that is no number, and where it is, or was drawn if that is none

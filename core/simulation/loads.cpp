@@ -19,7 +19,7 @@ double target_of(const PrescribedSurface& prescribed, std::size_t axis, double t
 }
 
 Vec2 between(Vec2 p, Vec2 q, double lever) {
-  return {p.x + lever * (q.x - p.x), p.y + lever * (q.y - p.y)};
+  return p + lever * (q - p);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ void Loads::visit_sides(const Scene& scene, const Model& model, std::uint32_t bo
   const std::array<double, gauss_points> lever{0.5 - outer, 0.5, 0.5 + outer};
   const std::array<double, gauss_points> share{5.0 / 18, 8.0 / 18, 5.0 / 18};
   const Vec2 centre = model.bodies[body].centre;
-  const auto in_scene = [&](Vec2 reference) { return Vec2{centre.x + reference.x, centre.y + reference.y}; };
+  const auto in_scene = [&](Vec2 reference) { return centre + reference; };
   for (const BoundarySide& side : boundary_of(scene, model, body)) {
     if (side.surface != surface_class) continue;
     const auto index = static_cast<std::uint32_t>(sides_.size());
@@ -57,7 +57,7 @@ Loads::Loads(const Scene& scene, const StageSettings& settings, const Model& mod
     : surface_loads_(settings.surface_loads), prescribed_(settings.prescribed) {
   for (const PointLoad& load : settings.loads) {
     const Vec2 centre = model.bodies[load.body].centre;
-    const Vec2 reference{load.point.x - centre.x, load.point.y - centre.y};
+    const Vec2 reference = load.point - centre;
     points_.push_back({model.point(load.body, reference), load.point, load.force, {}});
   }
   for (std::uint32_t i = 0; i < surface_loads_.size(); ++i) {
@@ -130,7 +130,7 @@ void Loads::apply_points(MotionState& motion, const StepSpan& span, double dt) {
     const Vec2 force{point.force[0].over(span, point.scene_point),
                      point.force[1].over(span, point.scene_point)};
     const Vec2 speed = motion.velocity(point.at);
-    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    work_through(point.worker, force, dt * speed);
     motion.add_force(point.at, force);
     applied_ += size_of(force);
   }
@@ -141,7 +141,7 @@ void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, doubl
     const SurfaceLoad& load = surface_loads_[point.load];
     const BoundarySide& side = sides_[point.at.side];
     const Vec2 start = side.start.reference, end = side.end.reference;
-    const double length = point.at.share * size_of({end.x - start.x, end.y - start.y});
+    const double length = point.at.share * size_of(end - start);
     Vec2 force{length * load.traction[0].over(span, point.at.scene_point),
                length * load.traction[1].over(span, point.at.scene_point)};
     if (!load.pressure.zero()) {
@@ -152,7 +152,7 @@ void Loads::apply_surface_loads(MotionState& motion, const StepSpan& span, doubl
       force.y += pressure * (end.x + to.x - start.x - from.x);
     }
     const Vec2 speed = velocity_at(motion, point.at);
-    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    work_through(point.worker, force, dt * speed);
     add_on_side(motion, point.at, force);
     applied_ += size_of(force);
   }
@@ -163,8 +163,7 @@ void Loads::apply_supports(MotionState& motion, double time) {
   for (SupportPoint& point : support_points_) {
     const PrescribedSurface& prescribed = prescribed_[point.prescribed];
     const BoundarySide& side = sides_[point.at.side];
-    const double length = size_of(
-        {side.end.reference.x - side.start.reference.x, side.end.reference.y - side.start.reference.y});
+    const double length = size_of(side.end.reference - side.start.reference);
     const double stiffness = prescribed.stiffness * length * point.at.share;
     const Vec2 moved = displacement_at(motion, point.at);
     std::array<double, 2> force{};
@@ -189,16 +188,15 @@ void Loads::apply_absorbing(MotionState& motion, double dt) {
   for (AbsorbingPoint& point : absorbing_points_) {
     const BoundarySide& side = sides_[point.at.side];
     const Vec2 from = motion.displacement(side.start), to = motion.displacement(side.end);
-    const Vec2 span{side.end.reference.x + to.x - side.start.reference.x - from.x,
-                    side.end.reference.y + to.y - side.start.reference.y - from.y};
+    const Vec2 span = side.end.reference + to - side.start.reference - from;
     const double length = size_of(span);
-    const Vec2 tangent{span.x / length, span.y / length}, speed = velocity_at(motion, point.at);
+    const Vec2 tangent = span / length, speed = velocity_at(motion, point.at);
     const double outward = speed.x * tangent.y - speed.y * tangent.x;
     const double along = speed.x * tangent.x + speed.y * tangent.y;
     const double normal = -point.pressure_impedance * outward * length * point.at.share;
     const double shear = -point.shear_impedance * along * length * point.at.share;
     const Vec2 force{normal * tangent.y + shear * tangent.x, -normal * tangent.x + shear * tangent.y};
-    work_through(point.worker, force, {speed.x * dt, speed.y * dt});
+    work_through(point.worker, force, dt * speed);
     add_on_side(motion, point.at, force);
   }
 }
@@ -206,8 +204,8 @@ void Loads::apply_absorbing(MotionState& motion, double dt) {
 /// By the lever rule: exact, for displacement is affine along the side.
 void Loads::add_on_side(MotionState& motion, const SideShare& at, Vec2 force) {
   const BoundarySide& side = sides_[at.side];
-  motion.add_force(side.start, {(1 - at.lever) * force.x, (1 - at.lever) * force.y});
-  motion.add_force(side.end, {at.lever * force.x, at.lever * force.y});
+  motion.add_force(side.start, (1 - at.lever) * force);
+  motion.add_force(side.end, at.lever * force);
 }
 
 Vec2 Loads::displacement_at(const MotionState& motion, const SideShare& at) const {

@@ -26,7 +26,7 @@ Numbering numbering_of(const Scene& scene) {
   for (const SceneBody& body : scene.bodies) {
     boxes.push_back(box_around(body.outer.vertices));
     const Box& box = boxes.back();
-    middles.push_back({(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2});
+    middles.push_back((box.low + box.high) / 2);
   }
   const Box all = box_around(middles);
   const bool along_x = all.width() >= all.height();

@@ -7,21 +7,17 @@
 namespace talus {
 namespace {
 
-Vec2 along(Vec2 p, double factor, Vec2 q) {
-  return {p.x + factor * q.x, p.y + factor * q.y};
-}
-
 /// The velocity of each patch when the body spins by 1 rad/s about its centre of mass, in the present shape.
 void unit_spin(const Model& model, const Body& body, const MotionState& motion, std::vector<Vec2>& spin) {
   const CoverRanges& ranges = model.ranges(body);
   Vec2 centre;
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const double share = model.patch_mass[p] / body.mass;
-    centre = along(centre, share, along(model.patch_star[p], 1, motion.patch_displacement[p]));
+    centre += share * (model.patch_star[p] + motion.patch_displacement[p]);
   }
   spin.clear();
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-    const Vec2 at = along(model.patch_star[p], 1, motion.patch_displacement[p]);
+    const Vec2 at = model.patch_star[p] + motion.patch_displacement[p];
     spin.push_back({-(at.y - centre.y), at.x - centre.x});
   }
 }
@@ -38,7 +34,7 @@ void replace_supported(const Model& model, const PatchMass& mass, std::uint32_t 
     const double inertia = mass.product(model, index, mode, mode);
     const double share = mass.product(model, index, field, mode) / inertia;
     const double change = target(prescribed, inertia, share, mode) - share;
-    for (std::size_t i = 0; i < field.size(); ++i) field[i] = along(field[i], change, mode[i]);
+    for (std::size_t i = 0; i < field.size(); ++i) field[i] += change * mode[i];
   };
   if (support.x) {
     mode.assign(field.size(), {1, 0});
@@ -62,8 +58,7 @@ double kinetic_at_step(const Model& model, const PatchMass& mass, std::uint32_t 
   const std::span<const Vec2> side = conditions.dt_behind > 0 ? before : after;
   static thread_local std::vector<Vec2> mirrored;
   mirrored.clear();
-  for (std::size_t i = 0; i < side.size(); ++i)
-    mirrored.push_back({2 * at_step[i].x - side[i].x, 2 * at_step[i].y - side[i].y});
+  for (std::size_t i = 0; i < side.size(); ++i) mirrored.push_back(2 * at_step[i] - side[i]);
   return mass.product(model, body, first, side, mirrored) / 2;
 }
 
@@ -109,10 +104,9 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
   mass.accelerations(model, index, first, motion.patch_force);
   Vec2 momentum{updated.sums.momentum[0], updated.sums.momentum[1]};
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 acceleration = along(motion.patch_force[first + i], 1, conditions.gravity);
-    after[i] = {update.keep * after[i].x + update.gain * acceleration.x,
-                update.keep * after[i].y + update.gain * acceleration.y};
-    momentum = along(momentum, model.patch_mass[first + i], before[i]);
+    const Vec2 acceleration = motion.patch_force[first + i] + conditions.gravity;
+    after[i] = update.keep * after[i] + update.gain * acceleration;
+    momentum += model.patch_mass[first + i] * before[i];
   }
   replace_supported(model, mass, index, support, motion, after,
                     [&](double prescribed, double inertia, double value, std::span<const Vec2> mode) {
@@ -120,9 +114,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
                       return impose(prescribed, inertia, value, value_before, conditions, update, work);
                     });
   const double share = share_of_after(conditions);
-  for (std::size_t i = 0; i < count; ++i)
-    middle[i] = {before[i].x + share * (after[i].x - before[i].x),
-                 before[i].y + share * (after[i].y - before[i].y)};
+  for (std::size_t i = 0; i < count; ++i) middle[i] = before[i] + share * (after[i] - before[i]);
 
   work.kinetic += kinetic_at_step(model, mass, index, first, conditions, before, middle, after) +
                   kinetic_at_step(updated.sums, conditions);
@@ -131,8 +123,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
     // With the mean of both velocities, which is not that at t_n where steps are uneven.
     static thread_local std::vector<Vec2> mean;
     mean.assign(middle.begin(), middle.end());
-    for (std::size_t i = 0; share != 0.5 && i < count; ++i)
-      mean[i] = {(before[i].x + after[i].x) / 2, (before[i].y + after[i].y) / 2};
+    for (std::size_t i = 0; share != 0.5 && i < count; ++i) mean[i] = (before[i] + after[i]) / 2;
     const double behind = mass.product(model, index, first, mean, before) + 0.5 * updated.sums.before +
                           0.5 * updated.sums.across;
     const double ahead =

@@ -77,7 +77,7 @@ void add_springs(const Model& model, const Body& body, const SpringsOfSides& spr
     const double length =
         std::sqrt((end.x - start.x) * (end.x - start.x) + (end.y - start.y) * (end.y - start.y));
     if (!(length > 0)) continue;
-    const Vec2 along{(end.x - start.x) / length, (end.y - start.y) / length}, across{along.y, -along.x};
+    const Vec2 along = (end - start) / length, across{along.y, -along.x};
     const Strengths strengths = strengths_of(springs[i]);
     const auto add = [&](Vec2 direction, double half, Reach reach) {
       const double first = dot(carried(side.start.carrier, from), direction),
@@ -119,7 +119,7 @@ double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) now[p] = {random(), random()};
   mass.tie(model, index, now);
   const double size = std::sqrt(product(now, now));
-  for (Vec2& v : now) v = {v.x / size, v.y / size};
+  for (Vec2& v : now) v = v / size;
 
   std::vector<double> diagonal, beside;
   double coupling = 0, best = 0;
@@ -141,8 +141,7 @@ double largest_eigenvalue(const Model& model, const PatchMass& mass, std::uint32
     if (residual <= close_enough * std::abs(solver.eigenvalues()[last]) || !(coupling > 0)) break;
     beside.push_back(coupling);
     before.swap(now);
-    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p)
-      now[p] = {image[p].x / coupling, image[p].y / coupling};
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) now[p] = image[p] / coupling;
   }
   return std::max(0.0, best);
 }

@@ -17,7 +17,7 @@ double power(const Body& body, const BodyMotion& motion, const BodyForce& change
 }
 
 BodyForce difference(const BodyForce& p, const BodyForce& q) {
-  return {{p.force.x - q.force.x, p.force.y - q.force.y},
+  return {p.force - q.force,
           {p.moment.xx - q.moment.xx, p.moment.xy - q.moment.xy, p.moment.yx - q.moment.yx,
            p.moment.yy - q.moment.yy}};
 }
@@ -85,7 +85,7 @@ double Relaxation::unbalanced(const Model& model, const PatchMass& mass, const M
       mass.accelerations(model, b, acceleration);
       const std::span<Vec2> own(acceleration.data() + ranges.patch_begin,
                                 ranges.patch_end - ranges.patch_begin);
-      for (Vec2& of_patch : own) of_patch = {of_patch.x + gravity.x, of_patch.y + gravity.y};
+      for (Vec2& of_patch : own) of_patch += gravity;
       leave_out_supported(model, mass, b, support, motion, own);
       for (std::size_t i = 0; i < own.size(); ++i)
         sum += model.patch_mass[ranges.patch_begin + i] * size_of(own[i]);

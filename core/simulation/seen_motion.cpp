@@ -14,7 +14,7 @@ PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const
              speed = !whole            ? carried(at.carrier, patch_velocity_at_step)
                      : velocities_left ? velocity(motion.velocity_at_step(at.body), at.reference)
                                        : velocity(motion.bodies[at.body], at.reference);
-  return {{as_drawn.x + now.x, as_drawn.y + now.y}, {now.x - before.x, now.y - before.y}, speed};
+  return {as_drawn + now, now - before, speed};
 }
 
 Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
@@ -31,20 +31,17 @@ Motion Simulation::State::motion_of(std::uint32_t body) const {
   const CoverRanges& ranges = model.ranges(b);
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
     const double share = model.patch_mass[p] / b.mass;
-    const auto add = [&](Vec2& sum, Vec2 value) { sum = {sum.x + share * value.x, sum.y + share * value.y}; };
+    const auto add = [&](Vec2& sum, Vec2 value) { sum += share * value; };
     add(now, motion.patch_displacement[p]);
     if (scene.settle) add(before, start_displacement[p]);
     add(speed, patch_velocity_at_step[p]);
   }
-  return {{b.centre.x + now.x, b.centre.y + now.y},
-          {now.x - before.x, now.y - before.y},
-          speed,
-          rotation_since_start(body)};
+  return {b.centre + now, now - before, speed, rotation_since_start(body)};
 }
 
 Motion Simulation::State::motion_of(std::uint32_t body, std::uint32_t element, Vec2 as_drawn) const {
   const Vec2 centre = model.bodies[body].centre;
-  MaterialPoint at{body, {as_drawn.x - centre.x, as_drawn.y - centre.y}, {}};
+  MaterialPoint at{body, as_drawn - centre, {}};
   if (model.covered(body)) at.carrier = model.carrier(model.elements[element], at.reference);
   const PartPoint seen = point(at, as_drawn);
   return {seen.position, seen.displacement, seen.velocity, rotation_since_start(body)};
@@ -52,7 +49,7 @@ Motion Simulation::State::motion_of(std::uint32_t body, std::uint32_t element, V
 
 std::uint32_t Simulation::State::element_at(std::uint32_t body, Vec2 as_drawn) const {
   const Vec2 centre = model.bodies[body].centre;
-  return model.covered(body) ? model.element_at(body, {as_drawn.x - centre.x, as_drawn.y - centre.y}) : 0;
+  return model.covered(body) ? model.element_at(body, as_drawn - centre) : 0;
 }
 
 std::array<double, 3> Simulation::State::stress_of(std::uint32_t body, std::uint32_t element) const {

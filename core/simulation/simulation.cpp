@@ -308,7 +308,7 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
     each_loop(s.scene.bodies[index], [&](const Loop& loop) {
       std::vector<PartPoint>& points = whole.loops.emplace_back();
       for (const Vec2 vertex : loop.vertices) {
-        points.push_back(s.point({index, {vertex.x - b.centre.x, vertex.y - b.centre.y}, {}}, vertex));
+        points.push_back(s.point({index, vertex - b.centre, {}}, vertex));
       }
     });
     return parts;
@@ -322,8 +322,7 @@ std::vector<BodyPart> Simulation::parts(std::size_t body) const {
       std::vector<PartPoint>& points = part.loops.emplace_back();
       points.reserve(ring.size());
       for (const Vec2 at : ring) {
-        points.push_back(s.point({index, at, s.model.carrier(s.model.elements[element], at)},
-                                 {b.centre.x + at.x, b.centre.y + at.y}));
+        points.push_back(s.point({index, at, s.model.carrier(s.model.elements[element], at)}, b.centre + at));
       }
     }
   }

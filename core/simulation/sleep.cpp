@@ -143,9 +143,8 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     const BodyMotion &before = before_[i], &after = parts.motion.bodies[chosen_[i]];
     const Matrix2 p = rate_of(body, before), q = rate_of(body, after);
     const double fastest = std::sqrt(squared_speed(model, body, after.velocity, q));
-    const double change = std::sqrt(squared_speed(
-        model, body, {after.velocity.x - before.velocity.x, after.velocity.y - before.velocity.y},
-        {q.xx - p.xx, q.xy - p.xy, q.yx - p.yx, q.yy - p.yy}));
+    const double change = std::sqrt(squared_speed(model, body, after.velocity - before.velocity,
+                                                  {q.xx - p.xx, q.xy - p.xy, q.yx - p.yx, q.yy - p.yy}));
     const std::uint32_t island = root(chosen_[i]);
     speed[island] = std::max(speed[island], fastest);
     acceleration[island] = std::max(acceleration[island], change / dt);
@@ -165,8 +164,7 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
     const Body& body = model.bodies[b];
     BodyMotion& now = parts.motion.bodies[b];
     BodyMotion middle = now;
-    middle.velocity = {(before_[i].velocity.x + now.velocity.x) / 2,
-                       (before_[i].velocity.y + now.velocity.y) / 2};
+    middle.velocity = (before_[i].velocity + now.velocity) / 2;
     middle.spin = (before_[i].spin + now.spin) / 2;
     middle.rate = {(before_[i].rate.xx + now.rate.xx) / 2, (before_[i].rate.xy + now.rate.xy) / 2,
                    (before_[i].rate.yx + now.rate.yx) / 2, (before_[i].rate.yy + now.rate.yy) / 2};

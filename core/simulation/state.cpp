@@ -435,8 +435,7 @@ void Simulation::State::set_rigid_motion(std::size_t index, Vec2 velocity, doubl
   body.rate = spin_rate(body);
   const CoverRanges& ranges = model.ranges(model.bodies[index]);
   for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-    const Vec2 at{model.patch_star[p].x + motion.patch_displacement[p].x - body.u.x,
-                  model.patch_star[p].y + motion.patch_displacement[p].y - body.u.y};
+    const Vec2 at = model.patch_star[p] + motion.patch_displacement[p] - body.u;
     motion.patch_velocity[p] = {velocity.x - spin * at.y, velocity.y + spin * at.x};
   }
   if (model.bodies[index].kinematics != Kinematics::rigid) body.spin = 0;

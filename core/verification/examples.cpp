@@ -113,7 +113,7 @@ void vaiont(const Bench& bench, Rows& rows) {
     Vec2 mean;
     for (std::size_t k = 0; k < slide.size(); ++k) {
       const Vec2 v = simulation.body_motion(slide[k]).velocity;
-      mean = {mean.x + area[k] / whole * v.x, mean.y + area[k] / whole * v.y};
+      mean += area[k] / whole * v;
     }
     if (simulation.time() == 0) pairs = static_cast<double>(simulation.pair_count());
     time.push_back(simulation.time());

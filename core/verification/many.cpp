@@ -98,7 +98,7 @@ void vertices_on_vertices(const Bench& bench, Rows& rows) {
     double size = 0;
     for (std::size_t i = 0; i < simulation.body_count(); ++i) {
       const Vec2 v = simulation.body_motion(i).velocity;
-      sum = {sum.x + v.x, sum.y + v.y};
+      sum += v;
       size += magnitude(v);
     }
     momentum = std::max(momentum, magnitude(sum) / size);

@@ -69,7 +69,7 @@ MassMatrices mass_matrices(const Scene& scene) {
   }
   made.lumped = made.consistent.rowwise().sum();
   const Vec2 centre = model.bodies[0].centre;
-  for (const Vec2 star : model.patch_star) made.star.push_back({star.x + centre.x, star.y + centre.y});
+  for (const Vec2 star : model.patch_star) made.star.push_back(star + centre);
   return made;
 }
 

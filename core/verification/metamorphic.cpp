@@ -181,11 +181,7 @@ void boost(const Bench& bench, Rows& rows) {
   hold_over(
       bench, rows, [](const Sample& sample) { return sample.free; },
       [&](const Scene& scene) { return boosted(scene, velocity); },
-      {[&](Vec2 d, double time) {
-         return Vec2{d.x + time * velocity.x, d.y + time * velocity.y};
-       },
-       1,
-       {}});
+      {[&](Vec2 d, double time) { return d + time * velocity; }, 1, {}});
 }
 
 /// The samples that a relation does not hold for to the bit, in one row.
@@ -233,8 +229,7 @@ void units(const Bench& bench, Rows& rows) {
 double spin_of(const Simulation& simulation, std::size_t body) {
   const std::vector<Vec2>& vertices = simulation.scene().bodies[body].outer.vertices;
   const Motion p = simulation.point_motion(body, vertices[0]), q = simulation.point_motion(body, vertices[1]);
-  const Vec2 r{q.position.x - p.position.x, q.position.y - p.position.y},
-      v{q.velocity.x - p.velocity.x, q.velocity.y - p.velocity.y};
+  const Vec2 r = q.position - p.position, v = q.velocity - p.velocity;
   return (r.x * v.y - r.y * v.x) / (r.x * r.x + r.y * r.y);
 }
 

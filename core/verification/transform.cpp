@@ -167,7 +167,7 @@ class Scaling {
 Scene moved_by(const Scene& scene, Vec2 by) {
   Scene copy = copied(scene);
   map_directions(copy, {false, 1, 1, 1});  // refuses functions of place
-  map_points(copy, [&](Vec2 p) { return Vec2{p.x + by.x, p.y + by.y}; });
+  map_points(copy, [&](Vec2 p) { return p + by; });
   return copy;
 }
 
@@ -217,7 +217,7 @@ Scene boosted(const Scene& scene, Vec2 velocity) {
   for (SceneBody& body : copy.bodies) {
     if (body.fixed || body.support.x || body.support.y)
       throw std::logic_error("a held body cannot be boosted");
-    body.velocity = {body.velocity.x + velocity.x, body.velocity.y + velocity.y};
+    body.velocity += velocity;
   }
   return copy;
 }

@@ -41,12 +41,12 @@ std::optional<double> area_by_geos(const Ring& a, const Ring& b, double grid) {
 double smallest_feature(const Ring& ring) {
   double least = extent({ring});
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 from = ring[i], to = ring[(i + 1) % ring.size()], along = minus(to, from);
+    const Vec2 from = ring[i], to = ring[(i + 1) % ring.size()], along = to - from;
     for (const Vec2 corner : ring) {
-      const Vec2 away = minus(corner, from);
+      const Vec2 away = corner - from;
       const double share = std::clamp(dot(away, along) / dot(along, along), 0.0, 1.0);
       const double distance = std::hypot(away.x - share * along.x, away.y - share * along.y);
-      if (size_of(away) > 0 && size_of(minus(corner, to)) > 0) least = std::min(least, distance);
+      if (size_of(away) > 0 && size_of(corner - to) > 0) least = std::min(least, distance);
     }
   }
   return least;
@@ -96,7 +96,7 @@ void check_triangles(const Ring& ring, double rounding) {
   double sum = 0;
   for (const auto& [i, j, k] : triangulate({ring})) {
     demand(i < ring.size() && j < ring.size() && k < ring.size(), "a triangle without a corner");
-    sum += std::abs(cross(minus(ring[j], ring[i]), minus(ring[k], ring[i]))) / 2;
+    sum += std::abs(cross(ring[j] - ring[i], ring[k] - ring[i])) / 2;
   }
   demand(std::abs(sum - signed_area(ring)) <= rounding,
          fmt::format("triangles of {} m2 fill a polygon of {}", sum, signed_area(ring)));

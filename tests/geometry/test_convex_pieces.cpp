@@ -364,7 +364,7 @@ TEST_CASE("of ways that are equally long the same is taken first, however the bo
     std::vector<std::pair<double, double>> corners;
     for (const ConvexPiece& piece : convex_pieces(loop_of(moved, 0), {})) {
       for (const PieceCorner& corner : piece) {
-        const Vec2 p = minus(corner.at, shift);
+        const Vec2 p = corner.at - shift;
         corners.emplace_back(std::round(1e6 * (c * p.x + s * p.y)), std::round(1e6 * (c * p.y - s * p.x)));
       }
     }
