@@ -21,13 +21,23 @@
 #include <algorithm>
 #include <deque>
 #include <set>
-#include <span>
 
 namespace talus {
 
 namespace {
 
 namespace po = boost::program_options;
+
+/// What the options alone say of it.
+ComparisonOrder order_of(const Usage& usage, const po::variables_map& given) {
+  ComparisonOrder order;
+  order.variation = parse_variation(text_option(given, "vary"));
+  order.overrides = overrides_of(usage, given);
+  order.threads = threads_of(usage, given, cores());
+  order.neighbour_skin = given.count("no-skin") == 0;
+  if (given.count("at") != 0) order.moments = given["at"].as<std::vector<double>>();
+  return order;
+}
 
 /// One scene per value. Each has a registry of its own, since a scene may bring libraries along.
 void read_scenes(const Usage& usage, const po::variables_map& given, const SceneFile& source,
@@ -63,6 +73,46 @@ std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) 
     if (!kept.contains(name)) left_over.push_back(order.folder / name);
   }
   return left_over;
+}
+
+/// Of an order that has its scenes. Returns the files that no output may replace.
+std::vector<std::filesystem::path> read_reference(const po::variables_map& given, ComparisonOrder& order) {
+  std::vector<std::filesystem::path> read;
+  for (const Scene& scene : order.scenes) {
+    for (std::filesystem::path& name : scene.files_read()) read.push_back(std::move(name));
+  }
+  const std::string named = text_option(given, "reference");
+  if (named.empty()) return read;
+  const std::filesystem::path reference = here_or_shipped(named);
+  read.push_back(reference);
+  const std::string text = read_whole_file(reference);
+  order.reference =
+      ReferenceFile{reference.string(), hash_of_bytes(text),
+                    read_reference_text(text, reference.string(), monitor_columns(order.scenes[0])), text};
+  return read;
+}
+
+/// Its own and one for each run, all or none; those of runs left over from an earlier comparison go.
+FolderLock prepare_folders(const ComparisonOrder& order, bool overwrite,
+                           const std::vector<std::filesystem::path>& read) {
+  const std::vector<std::filesystem::path> left_over = runs_left_over(order);
+  std::vector<std::filesystem::path> of_runs;
+  for (const std::string& value : order.variation.values)
+    of_runs.push_back(order.folder / folder_of_value(value));
+  refuse_output_folder(order.folder, overwrite, read);
+  for (const std::filesystem::path& folder : of_runs) refuse_output_folder(folder, overwrite, read);
+  prepare_output_folder(order.folder, overwrite, read);
+  FolderLock lock(order.folder);
+  for (const std::filesystem::path& folder : of_runs) prepare_output_folder(folder, overwrite, read);
+  for (const std::filesystem::path& run : left_over) remove_run(run, read);
+  return lock;
+}
+
+void write_results(const ComparisonOrder& order, const Comparison& comparison, bool report) {
+  if (order.reference) write_whole_file(order.folder / reference_copy, order.reference->text);
+  write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
+  write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
+  if (report) write_report(order.folder);
 }
 
 int code_of(const Comparison& comparison) {
@@ -130,41 +180,15 @@ int compare_command(const Words& words) {
   if (given->count("vary") == 0) throw UsageError(usage.command, "--vary /pointer=a,b is missing");
   const Log log = log_of(usage, *given);
 
-  ComparisonOrder order;
-  order.variation = parse_variation(text_option(*given, "vary"));
-  order.overrides = overrides_of(usage, *given);
-  order.threads = threads_of(usage, *given, cores());
-  order.neighbour_skin = given->count("no-skin") == 0;
-  if (given->count("at") != 0) order.moments = (*given)["at"].as<std::vector<double>>();
+  ComparisonOrder order = order_of(usage, *given);
   const SceneFile source = scene_file_of(*given);
   order.folder = output_folder(*given, source, "-compare");
+  order.scene_hash = hash_of_bytes(source.text);
   std::deque<Registry> registries;
   read_scenes(usage, *given, source, registries, order, log);
-  order.scene_hash = hash_of_bytes(source.text);
-  std::vector<std::filesystem::path> read;
-  for (const Scene& scene : order.scenes) {
-    for (std::filesystem::path& name : scene.files_read()) read.push_back(std::move(name));
-  }
-  if (const std::string named = text_option(*given, "reference"); !named.empty()) {
-    const std::filesystem::path reference = here_or_shipped(named);
-    read.push_back(reference);
-    const std::string text = read_whole_file(reference);
-    order.reference =
-        ReferenceFile{reference.string(), hash_of_bytes(text),
-                      read_reference_text(text, reference.string(), monitor_columns(order.scenes[0])), text};
-  }
+  const std::vector<std::filesystem::path> read = read_reference(*given, order);
   Comparison comparison = planned(order);
-  const bool overwrite = given->count("overwrite") != 0;
-  const std::vector<std::filesystem::path> left_over = runs_left_over(order);
-  std::vector<std::filesystem::path> folders{order.folder};
-  for (const std::string& value : order.variation.values)
-    folders.push_back(order.folder / folder_of_value(value));
-  for (const std::filesystem::path& folder : folders) refuse_output_folder(folder, overwrite, read);
-  prepare_output_folder(order.folder, overwrite, read);
-  const FolderLock mine(order.folder);
-  for (const std::filesystem::path& folder : std::span(folders).subspan(1))
-    prepare_output_folder(folder, overwrite, read);
-  for (const std::filesystem::path& run : left_over) remove_run(run, read);
+  const FolderLock mine = prepare_folders(order, given->count("overwrite") != 0, read);
 
   order.interrupted = watch_for_interrupts();
   log.info("started", "",
@@ -178,10 +202,7 @@ int compare_command(const Words& words) {
   compare(order, comparison);
   progress.clear();
 
-  if (order.reference) write_whole_file(order.folder / reference_copy, order.reference->text);
-  write_whole_file(order.folder / "compare.csv", comparison_csv(comparison));
-  write_whole_file(order.folder / "compare.json", comparison_json(order, comparison));
-  if (given->count("no-report") == 0) write_report(order.folder);
+  write_results(order, comparison, given->count("no-report") == 0);
   tell_troubles(comparison, order.folder, log);
   if (log.in_json())
     log.info("compared", "", {{"folder", order.folder.string()}, {"exit_code", code_of(comparison)}});

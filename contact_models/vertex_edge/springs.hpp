@@ -19,6 +19,12 @@ struct SpringHistory {
 
 inline constexpr unsigned spring_doubles = 8;
 
+/// Per area where springs are, tan φ, shares of critical damping, Pa.
+struct Interface {
+  double normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping, cohesion,
+      tensile;
+};
+
 /// Springs and strength of one vertex contact.
 struct SpringParameters {
   double normal, tangential;  ///< N/m per metre of thickness

@@ -1,5 +1,6 @@
 // The contact law of DDA: penalty springs between a vertex and an edge. See README.md beside.
 
+#include "acting_corner.hpp"
 #include "corner_contacts.hpp"
 #include "reflex_corners.hpp"
 #include "springs.hpp"
@@ -10,7 +11,6 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
 namespace {
 
@@ -39,11 +39,6 @@ constexpr Parameter interface_parameters[] = {
            "Cohesion of contacts that exist at the start, until they slip or open."),
     number("tensile_strength", "Pa", 0, 0, unbounded,
            "Tension such a contact bears before it opens for good."),
-};
-
-struct Interface {
-  double normal_stiffness, tangential_stiffness, friction, normal_damping, tangential_damping, cohesion,
-      tensile;
 };
 
 class VertexEdge final : public ContactModel {
@@ -114,9 +109,13 @@ class VertexEdge final : public ContactModel {
     }
     std::uint32_t count = 0;
     for (const CornerContact& contact : work.found) {
+      const PiecePairGeometry& geometry = work.pieces[contact.entry];
+      const Interface interface = interface_of(batch.interfaces, geometry, contact);
       SpringHistory history = born(batch, contact, work);
-      ContactReport seen{};
-      if (!act(batch, pair, sink, work.pieces[contact.entry], contact, history, seen, report)) continue;
+      const SpringParameters spring = springs(interface, contact.tributary, history.intact == 1);
+      ActingCorner corner(batch, pair, geometry, contact, interface, spring);
+      if (!corner.act(history, direct_ ? 1 : contact.filled, report)) continue;
+      const ContactReport seen = corner.push(sink);
       if (count < pair.slot_capacity) {
         write(history, loads.history + (pair.slot_start + count) * spring_doubles);
         if (loads.reports != nullptr) loads.reports[pair.slot_start + count] = seen;
@@ -267,93 +266,6 @@ class VertexEdge final : public ContactModel {
     return history;
   }
 
-  /// Applies one contact. False when its bond breaks in tension and nothing is left.
-  bool act(const ContactBatch& batch, const BodyPair& pair, const overlap::LoadSink& sink,
-           const PiecePairGeometry& geometry, const CornerContact& contact, SpringHistory& history,
-           ContactReport& seen, PairReport& report) const {
-    const Piece& own = geometry.piece[contact.vertex_body];
-    const Piece& other = geometry.piece[1 - contact.vertex_body];
-    const Interface interface = interface_of(batch.interfaces, own, other, contact);
-    const SpringParameters spring = springs(interface, contact.tributary, history.intact == 1);
-    const Point normal = other.normal(contact.side), along = other.tangent(contact.side);
-    const Point relative = own.velocity(contact.vertex) - other.velocity_at(contact.side, contact.lever);
-    const double closing = -dot(relative, normal);
-    // Friction acts at the vertex, as deep behind the side as it is, and slips as the side moves there.
-    const double sliding = dot(own.velocity(contact.vertex), along) -
-                           other.working_velocity(contact.side, own.at(contact.vertex), along);
-    const double slip = sliding * batch.dt;
-
-    // A flat contact stands on two such springs, and its ratio is meant of the two together.
-    const double carried_mass = pair.reduced_mass / 2;
-    const double dashpot = 2 * interface.normal_damping * std::sqrt(spring.normal * carried_mass);
-    // No dashpot pulls, but what a bond would bear as well.
-    const bool held = batch.hold_stick && spring.tensile > 0;
-    const double viscous =
-        held ? dashpot * closing
-             : std::max(dashpot * closing, -std::max(0.0, spring.normal * contact.depth + spring.tensile));
-
-    const double old_stored = history.stored, old_applied = history.applied, old_pulled = history.pulled;
-    // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
-    const double old_viscous = std::exchange(history.viscous, 0);
-    const SpringForce force =
-        spring_force(spring, contact.depth, viscous, history.elastic, slip, batch.hold_stick);
-    if (force.breaks) history.intact = 0;
-    if (force.normal <= 0 && history.intact == 0) {
-      // The force of the step before has worked through half of this one.
-      const double pull =
-          old_pulled > 0 ? contact.share * spring.normal * (contact.depth - closing * batch.dt) : 0;
-      report.slip_loss += (pull * closing * batch.dt - (old_applied + old_viscous) * slip) / 2;
-      return false;
-    }
-
-    history.elastic = force.tangential;
-    history.applied = contact.share * force.tangential;
-    const double stored_normal =
-        contact.share * (direct_ ? 1 : contact.filled) * force.normal * contact.depth / 2;
-    const double stored_tangential =
-        spring.tangential > 0 ? contact.share * force.tangential * force.tangential / (2 * spring.tangential)
-                              : 0;
-    history.stored = stored_tangential;
-    history.pulled = contact.depth < 0 ? stored_normal : 0;
-    report.stored += stored_normal + stored_tangential;
-    report.slip_loss += -old_stored - old_pulled - (old_applied + history.applied) * slip / 2 -
-                        (stored_tangential - old_stored);
-    if (force.slips) report.slip_loss -= old_viscous * slip / 2;
-    report.penetration = std::max(report.penetration, contact.depth);
-
-    report.damping_power += contact.share * viscous * closing * batch.dt;
-    report.damping_force += static_cast<float>(contact.share * std::abs(viscous));
-    double tangential = force.tangential;
-    if (!force.slips && spring.tangential > 0 && spring.friction + spring.cohesion > 0) {
-      const double shear_dashpot =
-          2 * interface.tangential_damping * std::sqrt(spring.tangential * carried_mass);
-      const double limit = batch.hold_stick ? std::numeric_limits<double>::infinity()
-                                            : shear_strength(spring, force.normal + viscous);
-      tangential = std::clamp(tangential - shear_dashpot * sliding, -std::max(limit, std::abs(tangential)),
-                              std::max(limit, std::abs(tangential)));
-      const double viscous_shear = tangential - force.tangential;
-      history.viscous = contact.share * viscous_shear;
-      report.damping_power += contact.share * std::max(0.0, -viscous_shear * slip);
-      report.damping_force += static_cast<float>(contact.share * std::abs(viscous_shear));
-    }
-
-    const Point across = contact.share * (force.normal + viscous) * normal;
-    const Point shear = contact.share * tangential * along;
-    sink.at_corner(own, contact.vertex, across + shear);
-    sink.at_point(other, contact.side, own.at(contact.vertex), -1.0 * (across + shear));
-    const double to_b = contact.vertex_body == 1 ? 1 : -1;
-    seen = {own.at(contact.vertex).x,
-            own.at(contact.vertex).y,
-            to_b * across.x,
-            to_b * across.y,
-            to_b * shear.x,
-            to_b * shear.y,
-            contact.depth,
-            force.slips ? 1.0 : 0.0,
-            0};
-    return true;
-  }
-
   SpringParameters springs(const Interface& interface, double tributary, bool intact) const {
     const double normal = direct_ ? normal_spring_ : interface.normal_stiffness * tributary;
     const double tangential = direct_ ? tangential_spring_ : interface.tangential_stiffness * tributary;
@@ -366,8 +278,10 @@ class VertexEdge final : public ContactModel {
   }
 
   /// The interface of the edge with the flatter of the vertex's own edges.
-  static Interface interface_of(const Interfaces& interfaces, const Piece& own, const Piece& other,
+  static Interface interface_of(const Interfaces& interfaces, const PiecePairGeometry& geometry,
                                 const CornerContact& contact) {
+    const Piece& own = geometry.piece[contact.vertex_body];
+    const Piece& other = geometry.piece[1 - contact.vertex_body];
     const std::uint32_t edge = flatter_edge(own, contact.vertex, other.tangent(contact.side));
     const std::uint32_t row =
         interfaces.row[own.surface(edge) * interfaces.surface_count + other.surface(contact.side)];

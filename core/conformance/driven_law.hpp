@@ -12,6 +12,8 @@
 
 namespace talus::conformance {
 
+struct BoundaryArrays;
+
 struct LoadedCorner {
   std::uint32_t body;
   Vec2 at;         ///< m, in the world
@@ -71,7 +73,17 @@ class DrivenLaw {
   std::uint64_t layout = 1;  ///< as ContactBatch::layout, while `met` stays as it is
 
  private:
+  static void give_boundaries(const BoundaryArrays& arrays, GivenBatch& batch);
+  void give_interfaces(GivenBatch& batch) const;
+  void give_pairs(const BoundaryArrays& arrays, GivenBatch& batch);
+  void give_history(GivenBatch& batch) const;
+
   Evaluation evaluate(double dt);
+  /// Gives pairs that report more contacts than slots as many as they ask for; false: ask again.
+  bool had_room(const GivenBatch& batch, const TakenLoads& taken);
+  void take_contacts(std::size_t pair, const GivenBatch& batch, const TakenLoads& taken, Evaluation& result);
+  void take_loads(const BodyPair& pair, const GivenBatch& batch, const TakenLoads& taken,
+                  const BoundaryArrays& arrays, Evaluation& result) const;
   std::uint32_t next_slot() const;  ///< behind all that pairs have
 
   const RegisteredComponent* component_;

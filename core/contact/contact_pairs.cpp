@@ -128,14 +128,31 @@ void ContactStage::note_neighbours(const Model& model) {
 }
 
 void ContactStage::rebuild_pairs(const Model& model) {
-  const auto touches = [](const BodyPair& pair) { return pair.contact_count > 0; };
   slots_.close_up(pairs_, batch_begin_);
+  keep_former_pairs();
+  pair_up_candidates(model);
+  list_to_shape(model);
+  describe_plain_pairs(model);
+  ask_again_.assign(pairs_.size(), 0);
+  approach_.assign(pairs_.size(), 0);
+  give_back_slots();
+  lay_out_loads(model);
+  lay_out_slots();
+  if (!island_.empty()) hold_sleeping_pairs();
+}
+
+void ContactStage::keep_former_pairs() {
+  const auto touches = [](const BodyPair& pair) { return pair.contact_count > 0; };
   former_pairs_.clear();
   make_room_in(former_pairs_, static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), touches)));
   for (const BodyPair& pair : pairs_) {
     if (!touches(pair)) continue;
     former_pairs_.push_back({pair.a, pair.b, pair.slot_start, pair.slot_capacity, pair.contact_count});
   }
+}
+
+/// Pairs of bodies from those of pieces that are near each other, sorted by bodies.
+void ContactStage::pair_up_candidates(const Model& model) {
   pairs_.clear();
   piece_pairs_.clear();
   steps_shared_ = 0;
@@ -153,29 +170,31 @@ void ContactStage::rebuild_pairs(const Model& model) {
   make_room_in(piece_pairs_, listed);
   for (const auto& [piece_a, piece_b] : candidates_) {
     const std::uint32_t of_a = model.piece_body[piece_a], of_b = model.piece_body[piece_b];
-    if (pairs_.empty() || pairs_.back().a != of_a || pairs_.back().b != of_b) {
-      const Body &a = model.bodies[of_a], &b = model.bodies[of_b];
-      BodyPair pair{};
-      pair.a = of_a, pair.b = of_b;
-      pair.master_halves = master_halves(of_a, of_b);
-      pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
-      pair.reduced_mass = reduced_mass(model, of_a, of_b);
-      pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
-      pairs_.push_back(pair);
-    }
+    if (pairs_.empty() || pairs_.back().a != of_a || pairs_.back().b != of_b)
+      pairs_.push_back(new_pair(model, of_a, of_b));
     if (plain(of_a, of_b)) continue;
     piece_pairs_.push_back({piece_a, piece_b, 0});
     pairs_.back().piece_pair_range[1] = static_cast<std::uint32_t>(piece_pairs_.size());
   }
-  list_to_shape(model);
-  describe_plain_pairs(model);
-  ask_again_.assign(pairs_.size(), 0);
-  approach_.assign(pairs_.size(), 0);
+}
 
-  // History goes with its pair: both lists are sorted by bodies.
+/// One whose pieces, if they are listed, come next.
+BodyPair ContactStage::new_pair(const Model& model, std::uint32_t of_a, std::uint32_t of_b) const {
+  const Body &a = model.bodies[of_a], &b = model.bodies[of_b];
+  BodyPair pair{};
+  pair.a = of_a, pair.b = of_b;
+  pair.master_halves = master_halves(of_a, of_b);
+  pair.offset_x = b.centre.x - a.centre.x, pair.offset_y = b.centre.y - a.centre.y;
+  pair.reduced_mass = reduced_mass(model, of_a, of_b);
+  pair.piece_pair_range[0] = static_cast<std::uint32_t>(piece_pairs_.size());
+  return pair;
+}
+
+/// History goes with its pair: both lists are sorted by bodies.
+void ContactStage::give_back_slots() {
+  const auto bodies = [](const auto& of) { return std::pair{of.a, of.b}; };
   auto former = former_pairs_.cbegin();
   for (BodyPair& pair : pairs_) {
-    const auto bodies = [](const auto& of) { return std::pair{of.a, of.b}; };
     while (former != former_pairs_.cend() && bodies(*former) < bodies(pair)) ++former;
     if (former == former_pairs_.cend()) break;
     if (bodies(*former) != bodies(pair)) continue;
@@ -183,9 +202,6 @@ void ContactStage::rebuild_pairs(const Model& model) {
     pair.slot_capacity = former->slot_capacity;
     pair.contact_count = former->contact_count;
   }
-  lay_out_loads(model);
-  lay_out_slots();
-  if (!island_.empty()) hold_sleeping_pairs();
 }
 
 /// By the contacts found since the search: in the first steps of a scene none is known.

@@ -106,6 +106,10 @@ class ContactStage {
   void shape_listed(const Model& model, MotionState& motion);
   void list_to_shape(const Model& model);
   void rebuild_pairs(const Model& model);
+  void keep_former_pairs();
+  void pair_up_candidates(const Model& model);
+  BodyPair new_pair(const Model& model, std::uint32_t of_a, std::uint32_t of_b) const;
+  void give_back_slots();
   void take_drift(const Model& model, const MotionState& motion);
   kernels::Drift drift_of(const Model& model, const Body& body, const MotionState& motion);
   void drift_on(const Model& model, const MotionState& motion);

@@ -135,53 +135,69 @@ void Sleep::choose(double time, Parts parts) {
 
 Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, Parts parts) {
   if (chosen_.empty()) return {};
-  const Model& model = parts.model;
-  const double dt = (conditions.dt_behind + conditions.dt_ahead) / 2;
-  std::vector<double> speed(parent_.size(), 0.0), acceleration(parent_.size(), 0.0);  // [root]
-  for (std::size_t i = 0; i < chosen_.size(); ++i) {
-    const Body& body = model.bodies[chosen_[i]];
-    const BodyMotion &before = before_[i], &after = parts.motion.bodies[chosen_[i]];
-    const Matrix2 p = rate_of(body, before), q = rate_of(body, after);
-    const double fastest = std::sqrt(squared_speed(model, body, after.velocity, q));
-    const double change = std::sqrt(squared_speed(model, body, after.velocity - before.velocity,
-                                                  {q.xx - p.xx, q.xy - p.xy, q.yx - p.yx, q.yy - p.yy}));
-    const std::uint32_t island = root(chosen_[i]);
-    speed[island] = std::max(speed[island], fastest);
-    acceleration[island] = std::max(acceleration[island], change / dt);
-  }
-
+  const std::vector<Pace> pace = paces((conditions.dt_behind + conditions.dt_ahead) / 2, parts);
   Taken taken;
   std::vector<std::uint32_t> entry(parent_.size(), 0);  // [root] 1 + that of islands_
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
-    const std::uint32_t b = chosen_[i], of = root(b);
-    if (!(speed[of] < settings_.speed && acceleration[of] <= settings_.acceleration)) continue;
+    const std::uint32_t of = root(chosen_[i]);
+    const auto [speed, acceleration] = pace[of];
+    if (!(speed < settings_.speed && acceleration <= settings_.acceleration)) continue;
     if (entry[of] == 0) {
-      islands_.push_back({++last_number_, time, speed[of], acceleration[of]});
+      islands_.push_back({++last_number_, time, speed, acceleration});
       entry[of] = static_cast<std::uint32_t>(islands_.size());
       ++past_.islands;
     }
-    Island& island = islands_[entry[of] - 1];
-    const Body& body = model.bodies[b];
-    BodyMotion& now = parts.motion.bodies[b];
-    BodyMotion middle = now;
-    middle.velocity = (before_[i].velocity + now.velocity) / 2;
-    middle.spin = (before_[i].spin + now.spin) / 2;
-    middle.rate = {(before_[i].rate.xx + now.rate.xx) / 2, (before_[i].rate.xy + now.rate.xy) / 2,
-                   (before_[i].rate.yx + now.rate.yx) / 2, (before_[i].rate.yy + now.rate.yy) / 2};
-    taken.kinetic += kinetic_energy(body, before_[i], now);
-    taken.damping_loss_ahead += conditions.damping * kinetic_energy(body, middle, now) * conditions.dt_ahead;
-    island.strain_energy += parts.deformation.stored_in(model, b);
-    ++island.bodies;
-    island_[b] = island.number;
-    now.velocity = {};
-    now.rate = {};
-    now.spin = 0;
-    parts.motion.leave_velocity(b, {});
-    for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c)
-      parts.motion.corners[c].vx = parts.motion.corners[c].vy = 0;
+    lay_down(i, islands_[entry[of] - 1], conditions, parts, taken);
   }
-  if (std::all_of(entry.begin(), entry.end(), [](std::uint32_t e) { return e == 0; })) return taken;
+  if (islands_.empty() || islands_.back().since != time) return taken;
   past_.kinetic_energy += taken.kinetic;
+  take_contact_energy(time, parts);
+  add_up();
+  tell(parts);
+  return taken;
+}
+
+std::vector<Sleep::Pace> Sleep::paces(double dt, Parts parts) {
+  std::vector<Pace> pace(parent_.size());
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const Body& body = parts.model.bodies[chosen_[i]];
+    const BodyMotion &before = before_[i], &after = parts.motion.bodies[chosen_[i]];
+    const Matrix2 p = rate_of(body, before), q = rate_of(body, after);
+    const double fastest = std::sqrt(squared_speed(parts.model, body, after.velocity, q));
+    const double change = std::sqrt(squared_speed(parts.model, body, after.velocity - before.velocity,
+                                                  {q.xx - p.xx, q.xy - p.xy, q.yx - p.yx, q.yy - p.yy}));
+    Pace& island = pace[root(chosen_[i])];
+    island.speed = std::max(island.speed, fastest);
+    island.acceleration = std::max(island.acceleration, change / dt);
+  }
+  return pace;
+}
+
+void Sleep::lay_down(std::size_t chosen, Island& island, const StepConditions& conditions, Parts parts,
+                     Taken& taken) {
+  const std::uint32_t b = chosen_[chosen];
+  const Body& body = parts.model.bodies[b];
+  const BodyMotion& before = before_[chosen];
+  BodyMotion& now = parts.motion.bodies[b];
+  BodyMotion middle = now;
+  middle.velocity = (before.velocity + now.velocity) / 2;
+  middle.spin = (before.spin + now.spin) / 2;
+  middle.rate = {(before.rate.xx + now.rate.xx) / 2, (before.rate.xy + now.rate.xy) / 2,
+                 (before.rate.yx + now.rate.yx) / 2, (before.rate.yy + now.rate.yy) / 2};
+  taken.kinetic += kinetic_energy(body, before, now);
+  taken.damping_loss_ahead += conditions.damping * kinetic_energy(body, middle, now) * conditions.dt_ahead;
+  island.strain_energy += parts.deformation.stored_in(parts.model, b);
+  ++island.bodies;
+  island_[b] = island.number;
+  now.velocity = {};
+  now.rate = {};
+  now.spin = 0;
+  parts.motion.leave_velocity(b, {});
+  for (std::uint32_t c = body.corner_begin; c < body.corner_end; ++c)
+    parts.motion.corners[c].vx = parts.motion.corners[c].vy = 0;
+}
+
+void Sleep::take_contact_energy(double time, Parts parts) {
   for (std::size_t i = 0; i < parts.contacts.pairs().size(); ++i) {
     const BodyPair& pair = parts.contacts.pairs()[i];
     const std::uint32_t number = std::max(island_[pair.a], island_[pair.b]);
@@ -191,9 +207,6 @@ Sleep::Taken Sleep::put_to_sleep(double time, const StepConditions& conditions, 
                                        [](const Island& p, std::uint32_t n) { return p.number < n; });
     if (island.since == time) island.contact_energy += parts.contacts.stored_in(i);
   }
-  add_up();
-  tell(parts);
-  return taken;
 }
 
 void Sleep::wake(std::span<const std::uint32_t> numbers, double time, Parts parts) {

@@ -61,8 +61,18 @@ class Sleep {
     std::size_t bodies = 0;
     double contact_energy = 0, strain_energy = 0;  ///< J/m
   };
+  /// m/s and m/s², the largest of a corner of an island.
+  struct Pace {
+    double speed = 0, acceleration = 0;
+  };
   void exempt(const StageSettings& stage);
   std::uint32_t root(std::uint32_t body);
+  std::vector<Pace> paces(double dt, Parts parts);  ///< [root] of those chosen
+  /// Takes from a body that was chosen, by its entry, what moves it.
+  void lay_down(std::size_t chosen, Island& island, const StepConditions& conditions, Parts parts,
+                Taken& taken);
+  /// Of islands that sleep since this time.
+  void take_contact_energy(double time, Parts parts);
   void enter(const Island& island, double time, SleepReport& report) const;
   void tell(Parts parts);
   void add_up();

@@ -181,6 +181,25 @@ bool votes_alike(const Scene& scene, const StageSettings& settings, const Model&
   return settings.prescribed.empty() && settings.absorbing.empty();
 }
 
+struct Vote : BodyVote {
+  double factor;        ///< of stiffness, for what it meets
+  bool contacts_alone;  ///< it has no springs but those of contacts
+};
+
+Vote vote_of(const Scene& scene, const StageSettings& settings, const Model& model,
+             const ContactStage& contacts, const Crowd& crowd, std::uint32_t body) {
+  const Meetings met = crowd.met_by(body);
+  const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, body);
+  const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
+  const bool supported =
+      std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
+  const bool contacts_alone = !model.covered(body) && !supported && contacts.law() != nullptr;
+  if (model.covered(body))
+    return {vote_of_patches(scene, model, body, springs, factor), factor, contacts_alone};
+  const Support& support = support_of(settings.supports, body);
+  return {vote_as_a_whole(scene, model, body, springs, support, factor), factor, contacts_alone};
+}
+
 /// Where most of the room is left over; what nobody has touched takes none.
 template <class T>
 void give_back(std::vector<T>& values) {
@@ -214,19 +233,12 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
     });
     Different here{i, {}, 0, {}};
     if (alike == different.end()) {
-      const Meetings met = crowd.met_by(i);
-      const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, i);
-      const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
-      const BodyVote vote = model.covered(i) ? vote_of_patches(scene, model, i, springs, factor)
-                                             : vote_as_a_whole(scene, model, i, springs, support, factor);
-      const bool supported = std::any_of(springs.begin(), springs.end(),
-                                         [](const SideSprings& side) { return side.support > 0; });
-      const bool contacts_alone = !model.covered(i) && !supported && contacts.law() != nullptr;
-      here.ballot = {contacts_alone ? vote.elastic_lambda : vote.lambda,
+      const Vote vote = vote_of(scene, settings, model, contacts, crowd, i);
+      here.ballot = {vote.contacts_alone ? vote.elastic_lambda : vote.lambda,
                      vote.lambda,
-                     contacts_alone ? vote.gamma_alone : vote.gamma,
+                     vote.contacts_alone ? vote.gamma_alone : vote.gamma,
                      vote.gamma,
-                     factor,
+                     vote.factor,
                      model.bodies[i].contact_mass,
                      vote.elastic_lambda > 0.5 * vote.lambda,
                      contacts.law() != nullptr && crowd.is_held(i)};

@@ -170,6 +170,57 @@ bool covers(const Series& due, const Series& history) {
   return due.time.front() <= history.time.front() + little && due.time.back() >= history.time.back() - little;
 }
 
+/// What errors are measured against: a column of the reference, or of the run with the most work.
+struct Due {
+  const Series& curves;
+  const std::string& name;
+  std::size_t column;
+  bool of_a_run;
+};
+
+std::string words_of_other_times(const Series& history, const Series& due) {
+  return fmt::format(
+      "it goes from {:.6g} to {:.6g} s, and the run with the most work from {:.6g} to {:.6g}; a "
+      "--reference may do",
+      history.time.empty() ? 0 : history.time.front(), history.time.empty() ? 0 : history.time.back(),
+      due.time.front(), due.time.back());
+}
+
+/// Returns whether there is time in common to find it in.
+bool find_error(const Series& history, const Due& due, StudyFinding& of_run) {
+  const auto own = history.column(due.name);
+  if (!own) {
+    of_run.why_none = "it has no such column";
+    return false;
+  }
+  if (due.of_a_run && !(covers(due.curves, history) && covers(history, due.curves))) {
+    of_run.why_none = words_of_other_times(history, due.curves);
+    return false;
+  }
+  const auto found =
+      deviation(history, *own, due.curves, due.column, due.of_a_run ? Between::unknown : Between::line);
+  const double scale = largest_magnitude(due.curves, due.column, history);
+  if (!found || !std::isfinite(found->rms) || !(scale > 0)) {
+    of_run.why_none = !found      ? "it has no time in common with the reference"
+                      : scale > 0 ? "its values are no finite numbers"
+                                  : "it and the reference are 0 wherever both are";
+    return found.has_value();
+  }
+  of_run.rms = found->rms;
+  of_run.largest = found->largest;
+  of_run.error = found->rms / scale;
+  return true;
+}
+
+/// Refuses what no error can be a share of.
+void check_size(const Due& due, double rounding) {
+  const double largest = largest_magnitude(due.curves, due.column, due.curves);
+  if (largest > rounding) return;
+  throw InputError(fmt::format(
+      "'{}' is {} all along in the reference, so that no error is a share of it; choose another --metric",
+      due.name, largest == 0 ? "0" : fmt::format("rounding, {:.2g} at most,", largest)));
+}
+
 }  // namespace
 
 void check_reference(const Series& reference, const std::string& column) {
@@ -196,52 +247,22 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
                                           return finished(run) && run.work == runs[*finest].work;
                                         }) > 1;
   }
-  const Series& due = reference ? *reference : runs[*finest].history;
-  check_reference(due, column);
-  const auto due_column = due.column(column);
+  const Series& curves = reference ? *reference : runs[*finest].history;
+  check_reference(curves, column);
+  const Due due{curves, column, *curves.column(column), !reference};
+  check_size(due, rounding);
   bool any_in_common = false;
-  const double largest = largest_magnitude(due, *due_column, due);
-  if (!(largest > rounding)) {
-    throw InputError(fmt::format(
-        "'{}' is {} all along in the reference, so that no error is a share of it; choose another --metric",
-        column, largest == 0 ? "0" : fmt::format("rounding, {:.2g} at most,", largest)));
-  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!finished(runs[i]) || findings.reference == i) continue;
-    const auto own = runs[i].history.column(column);
-    if (!own) {
-      findings.runs[i].why_none = "it has no such column";
-      continue;
-    }
-    if (!reference && !(covers(due, runs[i].history) && covers(runs[i].history, due))) {
-      const Series& history = runs[i].history;
-      findings.runs[i].why_none = fmt::format(
-          "it goes from {:.6g} to {:.6g} s, and the run with the most work from {:.6g} to {:.6g}; a "
-          "--reference may do",
-          history.time.empty() ? 0 : history.time.front(), history.time.empty() ? 0 : history.time.back(),
-          due.time.front(), due.time.back());
-      continue;
-    }
-    if (!covers(due, runs[i].history))
-      findings.part = fmt::format("from {:.6g} to {:.6g} s", due.time.front(), due.time.back());
-    const auto found =
-        deviation(runs[i].history, *own, due, *due_column, reference ? Between::line : Between::unknown);
-    any_in_common = any_in_common || found;
-    const double scale = largest_magnitude(due, *due_column, runs[i].history);
-    if (!found || !std::isfinite(found->rms) || !(scale > 0)) {
-      findings.runs[i].why_none = !found      ? "it has no time in common with the reference"
-                                  : scale > 0 ? "its values are no finite numbers"
-                                              : "it and the reference are 0 wherever both are";
-      continue;
-    }
-    findings.runs[i].rms = found->rms;
-    findings.runs[i].largest = found->largest;
-    findings.runs[i].error = found->rms / scale;
+    const Series& history = runs[i].history;
+    if (reference && history.column(column) && !covers(curves, history))
+      findings.part = fmt::format("from {:.6g} to {:.6g} s", curves.time.front(), curves.time.back());
+    any_in_common = find_error(history, due, findings.runs[i]) || any_in_common;
   }
   if (reference && !any_in_common) {
     throw InputError(
         fmt::format("the reference goes from {:.6g} to {:.6g} s and has no time in common with a run",
-                    due.time.front(), due.time.back()));
+                    curves.time.front(), curves.time.back()));
   }
   mark_front(runs, findings.runs);
   find_orders(plan, runs, findings);
