@@ -124,6 +124,11 @@ std::string filled(std::string_view text, const Kind& kind, const std::string& n
   return with(std::move(result), "my_baseline", kind.baseline);
 }
 
+/// Also a link that leads nowhere.
+bool is_there(const fs::path& path) {
+  return fs::exists(fs::symlink_status(path));
+}
+
 void write_files(const fs::path& folder, const Kind& kind, const std::string& name) {
   fs::create_directories(folder);
   for (const TemplateFile& file : kind.files) {
@@ -161,23 +166,27 @@ int new_plugin_command(const Words& words) {
   check_name(usage, load_registry(usage, *given), name);
   const std::string out = text_option(*given, "out");
   const fs::path folder = fs::absolute(out.empty() ? name : out).lexically_normal();
-  if (fs::exists(folder)) {
+  if (is_there(folder)) {
     throw InputError(
         fmt::format("'{}' exists: nothing was written; take another NAME or --out DIR", folder.string()));
   }
   // Beside it first, so that what has the name is whole.
   const fs::path unfinished = folder.string() + ".unfinished";
-  if (fs::exists(unfinished)) {
+  if (is_there(unfinished)) {
     throw InputError(
         fmt::format("'{}' is in the way: nothing was written; move it, or take another NAME or --out DIR",
                     unfinished.string()));
   }
+  fs::path parent = folder.parent_path();
+  while (!is_there(parent)) parent = parent.parent_path();
   try {
     write_files(unfinished, kind, name);
     fs::rename(unfinished, folder);
   } catch (...) {
     std::error_code stays;
     fs::remove_all(unfinished, stays);
+    for (fs::path made = folder.parent_path(); made != parent; made = made.parent_path())
+      fs::remove(made, stays);
     throw;
   }
   const std::string from = shell_word(folder.string()), build = shell_word((folder / "build").string());

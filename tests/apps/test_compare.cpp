@@ -317,3 +317,20 @@ TEST_CASE("a comparison that is made anew leaves no runs of other values beside 
   CHECK(std::filesystem::exists(scratch / "o/e/run.json"));
   CHECK(std::filesystem::exists(scratch / "o/d/run.json"));
 }
+
+TEST_CASE("resume says of a comparison, and of each of its runs, that it begins anew",
+          "[apps][compare][resume]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call broken = call_and_signal(
+      scratch.folder(),
+      {"compare", "small.json", "--vary", "/title=a,b", "--out", "o", "--set", "/time/end=200"}, SIGINT,
+      scratch / "o/a/history.csv");
+  INFO(broken.err);
+  REQUIRE(broken.code == 130);
+  for (const char* folder : {"o", "o/a", "o/b"}) {
+    const Call call = call_talus(scratch.folder(), {"resume", folder});
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("is of a comparison, which keeps no checkpoint"));
+  }
+}

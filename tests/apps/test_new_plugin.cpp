@@ -107,6 +107,8 @@ TEST_CASE("a new plugin is refused in words, and nothing is written", "[apps]") 
   fs::create_directory(scratch / "there");
   CHECK_THAT(refused({"contact", "there"}), Contains("exists: nothing was written") && Contains("--out"));
   CHECK(fs::is_empty(scratch / "there"));
+  fs::create_symlink("nowhere", scratch / "leads.txt");
+  CHECK_THAT(refused({"contact", "led", "--out", "leads.txt"}), Contains("exists: nothing was written"));
   fs::create_directory(scratch / "mine.unfinished");
   scratch.write("mine.unfinished/notes.txt", "mine");
   CHECK_THAT(refused({"contact", "mine"}), Contains("mine.unfinished' is in the way"));
@@ -116,4 +118,17 @@ TEST_CASE("a new plugin is refused in words, and nothing is written", "[apps]") 
     CHECK((entry.path().stem() == "mine" || entry.path().filename() == "there" ||
            entry.path().extension() == ".txt"));
   }
+}
+
+TEST_CASE("a new plugin that cannot be written whole leaves nothing behind", "[apps]") {
+  const Scratch scratch;
+  // No file may be longer than some of a plugin's are.
+  const Call call = call_program(
+      "/bin/sh", scratch.folder(),
+      {"-c", "ulimit -f 1; trap '' XFSZ; exec \"$0\" new-plugin contact mine --out new/folders/mine",
+       TALUS_PROGRAM});
+  INFO(call.out << call.err);
+  CHECK(call.code != 0);
+  CHECK_THAT(call.err, Contains("mine.unfinished"));
+  CHECK_FALSE(fs::exists(scratch / "new"));
 }

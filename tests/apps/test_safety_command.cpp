@@ -170,6 +170,21 @@ TEST_CASE("talus safety that is interrupted gives no factor", "[apps][safety]") 
   CHECK_THAT(read_whole_file(scratch / "results/safety.svg"), !Contains("factor of safety"));
 }
 
+TEST_CASE("talus safety that is interrupted keeps what it warned of", "[apps][safety]") {
+  const Scratch scratch;
+  const Call call =
+      call_and_signal_after(scratch.folder(),
+                            {"safety", TALUS_SCENES "/stick_31deg.json", "--set", "/time/dt=1e-6", "--set",
+                             "/time/end=0.01", "--tolerance", "1e-4", "--out", "results"},
+                            SIGINT, 1);
+  INFO(call.out << call.err);
+  REQUIRE(call.code == 130);
+  CHECK_THAT(call.err, Contains("too short to see a body fail"));
+  const nlohmann::json answer = json_of(scratch / "results/safety.json");
+  CHECK(answer.at("warnings").dump().find("too short to see a body fail") != std::string::npos);
+  CHECK(answer.at("factor").is_null());
+}
+
 TEST_CASE("talus safety tells what may flutter, as validate does", "[apps][safety]") {
   const Scratch scratch;
   const std::vector<std::string> quick{"--tolerance",    "0.5",   "--set",
