@@ -184,6 +184,31 @@ TEST_CASE("what is missed while a scene settles is told, and a small step is not
   CHECK_THROWS_WITH(run(), Catch::Contains("hardly the step; `talus check-plugin`"));
 }
 
+TEST_CASE("a balance that dashpots lose is not to be mended by more of them", "[simulation][ledger]") {
+  const auto trouble = [](const std::string& damping, const std::string& dt) {
+    WorkingScene text;
+    text.interface = R"("normal_stiffness": 1e8, "tangential_stiffness": 1e8, "friction_angle": 30,
+                        "tangential_damping": 0, "normal_damping": )" +
+                     damping;
+    text.bodies = box("floor", -1, -1, 3, 0, R"("fixed": true)") +
+                  R"(, {"name": "plate", "material": "rock", "velocity": [0, -0.1],
+                        "polygon": [[0, 1e-4], [2, 5e-4], [2, 0.2005], [0, 0.2001]]})";
+    text.gravity = "[0, -10]";
+    text.rest = R"("limits": {"energy_residual": 1e-5},)";
+    text.time = R"({"end": 0.05, "dt": )" + dt + "}";
+    text.output = R"({"history": 0.01})";
+    std::string words;
+    try {
+      run_to_end(text);
+    } catch (const NumericalTrouble& caught) {
+      words = caught.what();
+    }
+    return words;
+  };
+  CHECK_THAT(trouble("5", "1e-4"), Catch::Contains("or less normal_damping"));
+  CHECK_THAT(trouble("0", "1e-3"), Catch::Contains("or damp the contacts"));
+}
+
 TEST_CASE("what rounding makes of a wall at rest far from the origin is nothing to warn of",
           "[simulation][ledger]") {
   WorkingScene text;
