@@ -5,6 +5,7 @@
 #include "exit_code.hpp"
 #include "files/folder_lock.hpp"
 #include "files/hash.hpp"
+#include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "interrupt.hpp"
 #include "output/history.hpp"
@@ -28,10 +29,21 @@ namespace {
 
 namespace po = boost::program_options;
 
+/// Values that only letters tell apart which no folder is named with would share one.
+void refuse_shared_folders(const Variation& variation) {
+  std::set<std::string> folders;
+  for (const std::string& value : variation.values) {
+    if (!folders.insert(folder_of_value(value)).second)
+      throw InputError(fmt::format("--vary {}: the run of '{}' and one before would both go to a folder '{}'",
+                                   variation.pointer, value, folder_of_value(value)));
+  }
+}
+
 /// What the options alone say of it.
 ComparisonOrder order_of(const Usage& usage, const po::variables_map& given) {
   ComparisonOrder order;
   order.variation = parse_variation(text_option(given, "vary"));
+  refuse_shared_folders(order.variation);
   order.overrides = overrides_of(usage, given);
   order.threads = threads_of(usage, given, cores());
   order.neighbour_skin = given.count("no-skin") == 0;
@@ -100,11 +112,14 @@ FolderLock prepare_folders(const ComparisonOrder& order, bool overwrite,
   for (const std::string& value : order.variation.values)
     of_runs.push_back(order.folder / folder_of_value(value));
   refuse_output_folder(order.folder, overwrite, read);
+  for (const std::filesystem::path& run : left_over) FolderLock::refuse_busy(run);
   for (const std::filesystem::path& folder : of_runs) refuse_output_folder(folder, overwrite, read);
   prepare_output_folder(order.folder, overwrite, read);
   FolderLock lock(order.folder);
   for (const std::filesystem::path& folder : of_runs) prepare_output_folder(folder, overwrite, read);
   for (const std::filesystem::path& run : left_over) remove_run(run, read);
+  // Whatever ends this program, the next one knows which runs are of it.
+  write_whole_file(order.folder / "compare.json", begun_comparison_json(order));
   return lock;
 }
 

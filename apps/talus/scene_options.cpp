@@ -1,7 +1,7 @@
 #include "scene_options.hpp"
 
+#include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
-
 #include "files/whole_file.hpp"
 #include "terminal.hpp"
 
@@ -119,8 +119,13 @@ std::vector<Override> overrides_of(const Usage& usage, const po::variables_map& 
 std::filesystem::path output_folder(const po::variables_map& given, const SceneFile& scene,
                                     const std::string& suffix) {
   const std::string out = text_option(given, "out");
-  return out.empty() ? std::filesystem::path("out") / (scene.file.stem().string() + suffix)
-                     : std::filesystem::path(out);
+  std::filesystem::path folder = out.empty()
+                                     ? std::filesystem::path("out") / (scene.file.stem().string() + suffix)
+                                     : std::filesystem::path(out);
+  std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  FolderLock::refuse_busy(whole.parent_path());
+  return folder;
 }
 
 int cores() {

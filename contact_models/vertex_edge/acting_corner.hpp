@@ -124,8 +124,8 @@ class ActingCorner {
 
   const CornerContact& contact_;
   const Piece &own_, &other_;
-  const Interface& interface_;
-  const SpringParameters& spring_;
+  Interface interface_;
+  SpringParameters spring_;
   bool held_;  ///< friction and bonds, without limit
   double dt_, carried_mass_;
   Point normal_, along_;                 ///< of the side

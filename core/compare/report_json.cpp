@@ -69,6 +69,20 @@ Json tolerances_json(const Comparison& comparison) {
   return list;
 }
 
+/// What is known before a run is made.
+Json head_json(const ComparisonOrder& order) {
+  return {
+      {"talus", TALUS_VERSION},
+      {"scene",
+       {{"file", order.scenes[0].file}, {"title", order.scenes[0].title}, {"xxh3_128", order.scene_hash}}},
+      {"varied", order.variation.pointer},
+      {"baseline", order.variation.values[0]}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
@@ -85,12 +99,7 @@ CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline) {
 }
 
 std::string comparison_json(const ComparisonOrder& order, const Comparison& comparison) {
-  Json json;
-  json["talus"] = TALUS_VERSION;
-  json["scene"] = {
-      {"file", order.scenes[0].file}, {"title", order.scenes[0].title}, {"xxh3_128", order.scene_hash}};
-  json["varied"] = order.variation.pointer;
-  json["baseline"] = order.variation.values[0];
+  Json json = head_json(order);
   if (!order.moments.empty()) json["moments [s]"] = order.moments;
   json["common_dt [s]"] = optional_json(comparison.common_dt);
   if (order.reference)
@@ -120,7 +129,16 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
   json["tolerances"] = tolerances_json(comparison);
   json["tolerances_held"] = comparison.tolerances_held();
   json["warnings"] = comparison.warnings;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
+}
+
+std::string begun_comparison_json(const ComparisonOrder& order) {
+  Json json = head_json(order);
+  json["runs"] = Json::array();
+  for (const std::string& value : order.variation.values)
+    json["runs"].push_back(
+        {{"value", value}, {"folder", folder_of_value(value)}, {"end", name_of(RunEnd::interrupted)}});
+  return text_of(json);
 }
 
 std::string comparison_csv(const Comparison& comparison) {

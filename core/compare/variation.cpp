@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace talus {
@@ -51,13 +52,11 @@ Variation parse_variation(std::string_view text) {
     throw InputError(fmt::format("--vary {}: write it as --vary /pointer=value,value", text));
   }
   Variation variation{std::string(text.substr(0, equals)), split_values(text.substr(equals + 1))};
-  std::set<std::string> folders;
+  std::set<std::string> told;
   for (const std::string& value : variation.values) {
     if (value.empty()) throw InputError(fmt::format("--vary {}: a value is empty", text));
-    if (!folders.insert(folder_of_value(value)).second) {
-      throw InputError(fmt::format("--vary {}: '{}' is there twice (or its folder '{}' is)", text, value,
-                                   folder_of_value(value)));
-    }
+    if (!told.insert(value).second)
+      throw InputError(fmt::format("--vary {}: '{}' is there twice", text, value));
   }
   return variation;
 }
@@ -70,7 +69,8 @@ std::string folder_of_value(std::string_view value) {
                        std::string_view(".+-_").find(letter) != std::string_view::npos;
     name += plain ? letter : '_';
   }
-  if (name.size() > longest_folder)  // values that begin alike have folders of their own
+  const bool ascii = std::ranges::all_of(value, [](unsigned char letter) { return letter < 0x80; });
+  if (name.size() > longest_folder || !ascii)  // values that look alike have folders of their own
     name = name.substr(0, longest_folder - 33) + '_' + hash_of_bytes(value);
   return name == "." || name == ".." ? "_" : name;
 }

@@ -19,7 +19,7 @@ struct Variation {
 Variation parse_variation(std::string_view text);
 
 /// Name of the subfolder for the run of a value: the value with all but letters, digits and . + - _ replaced,
-/// and with a hash for its end where it is long.
+/// and with a hash for its end where it is long, or has letters that are not ASCII.
 std::string folder_of_value(std::string_view value);
 
 }  // namespace talus

@@ -60,7 +60,7 @@ std::optional<ThinGround> find_thin_ground(const Model& model, const MotionState
       std::optional<ThinGround> found = ground_of(model, motion, penetration, a, {}, b, offset);
       if (!found) found = ground_of(model, motion, penetration, b, offset, a, {});
       if (!found) continue;
-      found->place = found->place + frame;
+      found->place += frame;
       return found;
     }
   }

@@ -16,6 +16,10 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// Throws InputError while another program writes into a folder, and leaves that as it is; does nothing
+  /// where there is none.
+  static void refuse_busy(const std::filesystem::path& folder);
+
  private:
   int handle_;
 };

@@ -146,6 +146,7 @@ void remove_files_of_run(const fs::path& run) {
 std::vector<fs::path> refuse_output_folder(const fs::path& folder, bool overwrite,
                                            const std::vector<fs::path>& read) {
   refuse_file(folder);
+  FolderLock::refuse_busy(folder);
   std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && !overwrite) {
     throw InputError(fmt::format(
@@ -186,6 +187,7 @@ void remove_study(const fs::path& folder, const std::function<bool(const fs::pat
     for (fs::path& file : results_in(run)) files.push_back(std::move(file));
   }
   for (const fs::path& file : files) refuse_to_remove(file, read);
+  for (const fs::path& run : runs) FolderLock::refuse_busy(run);
   for (const fs::path& table : present(folder, files_of_study)) fs::remove(table);
   for (const fs::path& run : runs) remove_files_of_run(run);
 }

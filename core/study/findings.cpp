@@ -75,7 +75,7 @@ constexpr double clock_noise = 0.05;
 
 /// A step that is stated is rounded to whole steps per output, and one that is voted may be bound by more
 /// than its safety: its order is in those that ran.
-double size_of(const StudyPlan& plan, std::size_t variation, std::size_t number, const StudyRun& run) {
+double h_of(const StudyPlan& plan, std::size_t variation, std::size_t number, const StudyRun& run) {
   const std::string& pointer = plan.pointers[variation];
   return pointer == "/time/dt" || pointer == "/time/safety" ? run.dt : number_of(plan, variation, number);
 }
@@ -101,7 +101,7 @@ void find_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs, Study
     std::vector<double> sizes, errors;
     for (const std::size_t run : family.runs) {
       if (!findings.runs[run].error || !(*findings.runs[run].error > round_off)) continue;
-      const double size = size_of(plan, family.variation, run, runs[run]);
+      const double size = h_of(plan, family.variation, run, runs[run]);
       if (!sizes.empty() && std::abs(size - sizes.back()) <= 1e-9 * size) continue;  // the same once more
       order.runs.push_back(run);
       sizes.push_back(size);
@@ -110,7 +110,7 @@ void find_orders(const StudyPlan& plan, const std::vector<StudyRun>& runs, Study
     if (order.runs.size() < 2) continue;
     std::optional<double> of_reference;
     if (findings.reference)
-      of_reference = size_of(plan, family.variation, *findings.reference, runs[*findings.reference]);
+      of_reference = h_of(plan, family.variation, *findings.reference, runs[*findings.reference]);
     const Convergence convergence(sizes, errors, of_reference);
     order.orders = convergence.between_neighbours();
     const std::optional<double> fit = convergence.fit();
@@ -186,16 +186,18 @@ std::string words_of_other_times(const Series& history, const Series& due) {
       due.time.front(), due.time.back());
 }
 
-/// Returns whether there is time in common to find it in.
-bool find_error(const Series& history, const Due& due, StudyFinding& of_run) {
+/// What stands in the way of any run's error where it does so in all of them.
+enum class Found { no_column, no_common_time, something };
+
+Found find_error(const Series& history, const Due& due, StudyFinding& of_run) {
   const auto own = history.column(due.name);
   if (!own) {
     of_run.why_none = "it has no such column";
-    return false;
+    return Found::no_column;
   }
   if (due.of_a_run && !(covers(due.curves, history) && covers(history, due.curves))) {
     of_run.why_none = words_of_other_times(history, due.curves);
-    return false;
+    return Found::something;
   }
   const auto found =
       deviation(history, *own, due.curves, due.column, due.of_a_run ? Between::unknown : Between::line);
@@ -204,12 +206,12 @@ bool find_error(const Series& history, const Due& due, StudyFinding& of_run) {
     of_run.why_none = !found      ? "it has no time in common with the reference"
                       : scale > 0 ? "its values are no finite numbers"
                                   : "it and the reference are 0 wherever both are";
-    return found.has_value();
+    return found ? Found::something : Found::no_common_time;
   }
   of_run.rms = found->rms;
   of_run.largest = found->largest;
   of_run.error = found->rms / scale;
-  return true;
+  return Found::something;
 }
 
 /// Refuses what no error can be a share of.
@@ -223,11 +225,10 @@ void check_size(const Due& due, double rounding) {
 
 }  // namespace
 
-void check_reference(const Series& reference, const std::string& column) {
+void check_reference(const Series& reference, const std::string& column, const char* called) {
   if (reference.column(column)) return;
-  throw InputError(
-      fmt::format("the reference has no column '{}'; it has '{}': choose one of these by --metric", column,
-                  fmt::join(reference.names, "', '")));
+  throw InputError(fmt::format("{} has no column '{}'; it has '{}': choose one of these by --metric", called,
+                               column, fmt::join(reference.names, "', '")));
 }
 
 StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs, const std::string& column,
@@ -248,17 +249,22 @@ StudyFindings find_out(const StudyPlan& plan, const std::vector<StudyRun>& runs,
                                         }) > 1;
   }
   const Series& curves = reference ? *reference : runs[*finest].history;
-  check_reference(curves, column);
+  check_reference(curves, column, reference ? "the reference" : "the run with the most work");
   const Due due{curves, column, *curves.column(column), !reference};
   check_size(due, rounding);
-  bool any_in_common = false;
+  bool any = false, any_in_common = false, any_column = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!finished(runs[i]) || findings.reference == i) continue;
     const Series& history = runs[i].history;
     if (reference && history.column(column) && !covers(curves, history))
       findings.part = fmt::format("from {:.6g} to {:.6g} s", curves.time.front(), curves.time.back());
-    any_in_common = find_error(history, due, findings.runs[i]) || any_in_common;
+    const Found found = find_error(history, due, findings.runs[i]);
+    any = true;
+    any_column = any_column || found != Found::no_column;
+    any_in_common = any_in_common || found == Found::something;
   }
+  if (reference && any && !any_column)
+    throw InputError(fmt::format("no run that finished has a column '{}', which the reference has", column));
   if (reference && !any_in_common) {
     throw InputError(
         fmt::format("the reference goes from {:.6g} to {:.6g} s and has no time in common with a run",

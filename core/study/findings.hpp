@@ -49,8 +49,9 @@ struct StudyFindings {
 /// What the errors are measured against, in words.
 std::string words_of_reference(const StudyPlan& plan, const StudyFindings& findings);
 
-/// Throws InputError where a reference has no such column.
-void check_reference(const Series& reference, const std::string& column);
+/// Throws InputError where a reference, called so, has no such column.
+void check_reference(const Series& reference, const std::string& column,
+                     const char* called = "the reference");
 
 /// Of `column`, from `reference` or else from the run that finished with the most work. Throws InputError
 /// where the runs or the reference have no such column, or in no place more than `rounding` of it, or no run

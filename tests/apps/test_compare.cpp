@@ -1,3 +1,4 @@
+#include "files/folder_lock.hpp"
 #include "files/whole_file.hpp"
 #include "output/scratch.hpp"
 #include "output/series.hpp"
@@ -5,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+
+#include <csignal>
 
 using namespace talus;
 using Catch::Matchers::Contains;
@@ -333,4 +336,60 @@ TEST_CASE("resume says of a comparison, and of each of its runs, that it begins 
     CHECK(call.code == 2);
     CHECK_THAT(call.err, Contains("is of a comparison, which keeps no checkpoint"));
   }
+}
+
+TEST_CASE("a comparison that cannot have all its folders takes nothing away", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const auto compare = [&](const std::string& values) {
+    return call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=" + values, "--out", "o",
+                                         "--overwrite", "--set", "/time/end=0.1"});
+  };
+  REQUIRE(compare("a,b,c").code == 0);
+  const FolderLock lock(scratch / "o/c");
+  for (const char* values : {"a,c", "a,b"}) {  // the last leaves over what is being written
+    const Call call = compare(values);
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("o/c' is being written by another talus"));
+    for (const char* file : {"o/compare.csv", "o/report.html", "o/a/history.csv", "o/b/run.json"}) {
+      INFO(file);
+      CHECK(std::filesystem::exists(scratch / file));
+    }
+  }
+  CHECK_THAT(call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a:b,a/b"}).err,
+             Contains("would both go to a folder 'a_b'"));
+}
+
+TEST_CASE("nobody writes into a folder that a comparison fills", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(
+      call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=a,b", "--out", "o"}).code ==
+      0);
+  const std::string before = read_whole_file(scratch / "o/a/run.json");
+  const FolderLock lock(scratch / "o");
+  for (const char* folder : {"o/a", "o/a/"}) {
+    const Call call = call_talus(scratch.folder(), {"run", "small.json", "--out", folder, "--overwrite"});
+    CHECK(call.code == 2);
+    CHECK_THAT(call.err, Contains("o' is being written by another talus"));
+  }
+  CHECK(read_whole_file(scratch / "o/a/run.json") == before);
+}
+
+TEST_CASE("a comparison that was killed leaves no runs beside those of the next", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  const Call killed = call_and_signal(
+      scratch.folder(),
+      {"compare", "small.json", "--vary", "/title=a,b", "--out", "o", "--set", "/time/end=200"}, SIGKILL,
+      scratch / "o/a/history.csv");
+  REQUIRE(killed.code == 128 + SIGKILL);
+  REQUIRE(json_of(scratch / "o/compare.json")["runs"][1]["end"] == "interrupted");
+  const std::vector<std::string> next{"compare", "small.json", "--vary", "/title=c,d", "--out", "o"};
+  CHECK_THAT(call_talus(scratch.folder(), next).err, Contains("'o' holds results already"));
+  std::vector<std::string> anew = next;
+  anew.emplace_back("--overwrite");
+  REQUIRE(call_talus(scratch.folder(), anew).code == 0);
+  CHECK_FALSE(std::filesystem::exists(scratch / "o/a"));
+  CHECK(json_of(scratch / "o/compare.json")["runs"][1]["end"] == "finished");
 }

@@ -21,3 +21,11 @@ TEST_CASE("a folder has one writer at a time, and another may follow", "[files]"
   prepare_output_folder(scratch.folder(), true);
   CHECK_FALSE(std::filesystem::exists(scratch / "history.csv"));
 }
+
+TEST_CASE("those who ask whether a folder is being written are in nobody's way", "[files]") {
+  const Scratch scratch;
+  CHECK_NOTHROW(FolderLock::refuse_busy(scratch / "nowhere"));
+  FolderLock::refuse_busy(scratch.folder());
+  const FolderLock lock(scratch.folder());  // nothing was left of that
+  CHECK_THROWS_WITH(FolderLock::refuse_busy(scratch.folder()), Catch::Contains("another talus"));
+}

@@ -1,5 +1,6 @@
 #include "output/output_folder.hpp"
 
+#include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
 #include "scratch.hpp"
@@ -73,4 +74,17 @@ TEST_CASE("of a study that is replaced tables and runs go, and nothing else", "[
   for (const char* kept : {"notes.txt", "run_0002/run.json", "run_0003/notes.txt", "run_0004/notes.txt",
                            "run_away/run.json", "run_12/run.json"})
     CHECK(std::filesystem::exists(scratch / kept));
+}
+
+TEST_CASE("nothing of a study goes while one of its runs is being written", "[output][files][study]") {
+  const Scratch scratch;
+  for (const char* file : {"study.csv", "run_0001/run.json", "run_0002/run.json"}) {
+    std::filesystem::create_directories((scratch / file).parent_path());
+    scratch.write(file, "");
+  }
+  const FolderLock lock(scratch / "run_0002");
+  CHECK_THROWS_WITH(remove_study(scratch.folder(), [](const auto&) { return false; }, {}),
+                    Contains("another talus"));
+  CHECK(std::filesystem::exists(scratch / "study.csv"));
+  CHECK(std::filesystem::exists(scratch / "run_0001/run.json"));
 }

@@ -246,3 +246,14 @@ TEST_CASE("A study says why a run has no error that a reference does not reach",
   CHECK(findings.runs[0].why_none == "it has no time in common with the reference");
   CHECK(findings.runs[1].why_none.empty());
 }
+
+TEST_CASE("A study says that no run has the column of its reference", "[study]") {
+  std::vector<StudyRun> runs{run_of(0.16, 1, 10), run_of(0.04, 2, 20), run_of(0.01, 4, 40),
+                             run_of(0.08, 2, 2), run_of(0.02, 9, 90)};
+  const Series reference = run_of(0, 0, 0).history;
+  for (StudyRun& run : runs) run.history.names = {"other.speed [m/s]"};
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, reference),
+                    Contains("no run that finished has a column"));
+  CHECK_THROWS_WITH(find_out(sample_steps(), runs, sample_column, std::nullopt),
+                    Contains("the run with the most work has no column"));
+}
