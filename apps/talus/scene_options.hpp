@@ -45,8 +45,8 @@ void refuse_to_replace_what_is_read(const Scene& scene, const std::filesystem::p
 /// The overrides of --set.
 std::vector<Override> overrides_of(const Usage& usage, const boost::program_options::variables_map& given);
 
-/// --out, or out/<name of the scene's file> and the suffix. Throws InputError where that lies in the folder of
-/// a comparison or a study at work, which would take what is written there for its own.
+/// --out, or out/<name of the scene's file> and the suffix. Throws InputError where that lies in the folder
+/// of a comparison or a study at work, which would take what is written there for its own.
 std::filesystem::path output_folder(const boost::program_options::variables_map& given,
                                     const SceneFile& scene, const std::string& suffix = "");
 

@@ -1,5 +1,7 @@
 #include "conformance/apart.hpp"
 
+#include "plugin/registry.hpp"
+
 #include <fmt/format.h>
 
 #include <sys/mman.h>
@@ -42,11 +44,29 @@ class SharedNotes {
   void* memory_;
 };
 
+/// Of a child, which does one check: what std::terminate() calls is given nothing.
+Trial::Notes* notes_of_child = nullptr;
+
+[[noreturn]] void end_with_what_was_thrown() {
+  std::string thrown = "something that is no std::exception";
+  try {
+    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+  } catch (const std::exception& problem) {
+    thrown = words_of_plugin(problem.what());
+  } catch (...) {
+  }
+  Trial(*notes_of_child).due(false, fmt::format("'{}' thrown where nothing may be", thrown), "an answer");
+  notes_of_child->finished = true;
+  _exit(1);
+}
+
 [[noreturn]] void work(Trial::Notes& notes, const std::function<void(Trial&)>& body) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   // What a library prints must not get into the report.
   dup2(STDERR_FILENO, STDOUT_FILENO);
+  notes_of_child = &notes;
+  std::set_terminate(end_with_what_was_thrown);
   Trial trial(notes);
   try {
     body(trial);

@@ -12,8 +12,10 @@ namespace {
 
 void expect_booked(const DrivenPath& path, double allowed, Trial& trial) {
   const double stored = path.last.pairs[0].stored;
+  trial.due(std::isfinite(path.turned_over), "forces along the way that are no numbers", "finite numbers");
   trial.due(stored >= -1e-9 * path.turned_over, fmt::format("a stored energy of {:.9g} J/m", stored),
             "0 or more");
+  trial.at_most(path.given_by_slip, 5 * allowed, "slip losses below zero, which give back, in sum [J/m]");
   trial.at_most(
       std::abs(path.work - path.gain() - path.booked()), allowed,
       fmt::format("|work − (stored + lost)| [J/m], where work is {:.9g}, stored {:.9g}, lost {:.9g}",

@@ -9,6 +9,15 @@
 namespace talus::conformance {
 namespace {
 
+/// As contacts that push tell it.
+void expect_slipping(Trial& trial, const Evaluation& e, double due) {
+  for (const ContactReport& contact : e.contacts) {
+    if (contact.px == 0 && contact.py == 0) continue;
+    trial.due(contact.slipping == due, fmt::format("slipping {:g} in a report", contact.slipping),
+              due == 1 ? "1: it has slid on for 10 mm" : "0: friction is held");
+  }
+}
+
 /// Of a block that slides over a base: its limit, nine tenths of it at least, and against the way it goes.
 void expect_sliding(Trial& trial, const Subject& subject, const Values& interface, double mu, double speed,
                     double share, double rounded) {
@@ -21,8 +30,10 @@ void expect_sliding(Trial& trial, const Subject& subject, const Values& interfac
   law.bodies[1].motion.velocity = {speed, 0};
   law.master_share = share;
   double against = 0, pressed = 0;
+  Evaluation last;
   for (int step = 0; step < 20; ++step) {
-    const Vec2 force = law.step(5e-4).on(1);
+    last = law.step(5e-4);
+    const Vec2 force = last.on(1);
     against = -std::copysign(1, speed) * force.x, pressed = force.y;
     const double none = 1e-9 * pressed + rounded;
     // Both ends of the block are immersed by 1 mm of 1 m and count with their share.
@@ -34,6 +45,7 @@ void expect_sliding(Trial& trial, const Subject& subject, const Values& interfac
   if (std::abs(speed) < 1) return;
   trial.at_most(0.9 * mu * pressed - against, rounded,
                 "what the force against sliding lacks of nine tenths of μ P [N/m]");
+  if (mu > 0) expect_slipping(trial, last, 1);
 }
 
 /// No limit applies while a scene settles with friction held.
@@ -51,6 +63,7 @@ void expect_held(Trial& trial, const Subject& subject, const Values& interface, 
   for (int step = 0; step < 40; ++step) e = law.step(5e-4);
   trial.at_most(1.5 * mu * e.on(1).y, -e.on(1).x,
                 "one and a half of μ P [N/m], which the force against sliding goes beyond");
+  expect_slipping(trial, e, 0);
 }
 
 /// With the flat as master all loads push one way, and the resultant is their sum.

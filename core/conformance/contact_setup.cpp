@@ -31,7 +31,9 @@ double scale_of(const Subject& subject, Trial& trial) {
   trial.feed("a block 1 mm deep in a base");
   DrivenLaw law(*subject.component, undamped_interface());
   law.bodies = flat_on_flat();
-  return std::abs(law.look().on(1).y) / 1e-3;
+  const double scale = std::abs(law.look().on(1).y) / 1e-3;
+  trial.due(std::isfinite(scale), "a force that is no number", "a finite one: tolerances are shares of it");
+  return scale;
 }
 
 std::vector<HeldPair> pairs_without_ties(std::uint32_t random) {

@@ -63,7 +63,7 @@ void each_cover(const Subject& subject, Trial& trial,
 bool is_sound(const RecordedCover& cover) {
   const auto known = [&](std::uint32_t patch) { return patch < cover.stars.size(); };
   const bool elements = std::ranges::all_of(cover.elements, [&](const RecordedCover::Element& element) {
-    return std::ranges::all_of(element.patch, known) &&
+    return std::ranges::all_of(element.patch, known) && !element.rings.empty() &&
            std::ranges::all_of(element.rings, [](const Line& ring) { return ring.size() >= 3; });
   });
   const bool steadied = std::ranges::all_of(cover.steadied, [&](const Steadied& one) {

@@ -2,6 +2,7 @@
 
 #include "conformance/contact_setup.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus::conformance {
@@ -9,7 +10,7 @@ namespace talus::conformance {
 /// Follows a path with the upper body and adds up what is put in and what is booked, J/m.
 struct DrivenPath {
   DrivenLaw& law;
-  double work = 0, lost_in_slip = 0, damped = 0, stored = 0, turned_over = 0, way = 0;
+  double work = 0, lost_in_slip = 0, given_by_slip = 0, damped = 0, stored = 0, turned_over = 0, way = 0;
   double blurred = 0;  ///< J/m, what the trapezoids may be off where forces jump
   double dt;           ///< s
   Evaluation last;
@@ -30,6 +31,7 @@ struct DrivenPath {
     turned_over += std::abs(part);
     way += size_of(d);
     lost_in_slip += last.pairs[0].slip_loss;
+    given_by_slip += std::max(0.0, -last.pairs[0].slip_loss);
     damped += dashpot_work(before.pairs[0], last.pairs[0]);
   }
 

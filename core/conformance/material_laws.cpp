@@ -142,6 +142,7 @@ void check_viscous_loss(const Subject& subject, Trial& trial) {
     trial.feed(fmt::format(
         "one round of strains of {:g} under a turn of as much, in 400 steps of 1e-3 and of 1000 s", strain));
     const double rounding = 1e-12 * quick.turned_over;
+    trial.due(std::isfinite(rounding), "stress that is no number", "finite numbers");
     trial.at_most(-quick.least_viscous, rounding, "work of viscous stress below zero [J/m³]");
     trial.at_most(-quick.least_plastic, rounding, "work of viscous stress beyond what is dissipated [J/m³]");
     trial.at_most(slow.viscous, 1e-5 * quick.viscous + 1e-12 * slow.turned_over,

@@ -1,6 +1,7 @@
 #include "conformance/check.hpp"
 #include "conformance/guarded.hpp"
 #include "conformance/sample_values.hpp"
+#include "plugin/registry.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ MadeFrom make_from(const Component& component, const std::vector<double>& values
   trial.due(end != error.end(), "a refusal that is not zero-terminated", "words, zero-terminated");
   std::string words(error.data(), static_cast<std::size_t>(end - error.begin()));
   trial.due(!words.empty(), "nullptr without a reason", "an object, or nullptr and the reason in words");
-  return {false, words};
+  return {false, words_of_plugin(words)};
 }
 
 void expect_state_that_fits(const Subject& subject, const std::vector<double>& values, Trial& trial) {
@@ -59,7 +60,7 @@ void check_parameters(const Subject& subject, Trial& trial) {
   const std::span<const Parameter> table(component.parameters, component.parameter_count);
   const std::vector<double> samples = in_order(table, {});
   trial.feed(in_words(table, samples));
-  const MadeFrom usual = make_from(component, samples, 512, trial);
+  const MadeFrom usual = make_from(component, samples, room_for_words, trial);
   trial.due(usual.made, "refused: " + usual.words,
             "an object: these are defaults, and values within the ranges");
   if (usual.made) expect_state_that_fits(subject, samples, trial);
@@ -71,7 +72,7 @@ void check_parameters(const Subject& subject, Trial& trial) {
           std::nextafter(table[i].maximum, huge), -1.0, 0.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
       std::vector<double> values = samples;
       values[i] = value;
-      for (const std::size_t room : {std::size_t{512}, std::size_t{8}}) {
+      for (const std::size_t room : {room_for_words, std::size_t{8}}) {
         trial.feed(fmt::format("{} (in SI), with {} bytes for the reason of a refusal",
                                in_words({&table[i], 1}, {&value, 1}), room));
         make_from(component, values, room, trial);

@@ -1,5 +1,7 @@
 #include "conformance/trial.hpp"
 
+#include "text/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,9 +13,9 @@ namespace {
 
 template <std::size_t size>
 void note(char (&to)[size], std::string_view words) {
-  const std::size_t length = std::min(words.size(), size - 1);
-  std::memcpy(to, words.data(), length);
-  to[length] = '\0';
+  const std::string_view start = beginning_of(words, size - 1);
+  std::memcpy(to, start.data(), start.size());
+  to[start.size()] = '\0';
 }
 
 }  // namespace

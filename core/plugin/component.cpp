@@ -94,6 +94,9 @@ std::optional<std::string> reason_in_range(const Parameter& parameter) {
         "rebuild the library",
         parameter.minimum, parameter.maximum);
   }
+  if (value == -unbounded)
+    return "found the default -inf, wanted a number, `required`, or `unbounded` for what may be left out; "
+           "correct it and rebuild the library";
   const bool is_flag = parameter.kind == ParameterKind::flag;
   const bool inside = value >= parameter.minimum && value <= parameter.maximum;
   if (!std::isnan(value) && (!inside || (is_flag && value != 0 && value != 1))) {
@@ -203,7 +206,7 @@ std::optional<std::string> reason_to_refuse(const Component& component) {
 }
 
 std::string words_of_plugin(std::string_view said) {
-  std::string words(said);
+  std::string words(said.size() + 1 == room_for_words ? without_cut_letter(said) : said);
   for (char& c : words) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }

@@ -93,6 +93,9 @@ std::vector<std::filesystem::path> chosen_folders(std::span<const std::filesyste
 /// These, then lib/talus/plugins of the installation this program belongs to.
 std::vector<std::filesystem::path> search_path(std::span<const std::filesystem::path> from_command_line);
 
+/// Bytes for the reason of a refusal, its end included.
+inline constexpr std::size_t room_for_words = 512;
+
 /// What a plugin says of itself, fit for a terminal: in one line, without control characters; where it says
 /// nothing, that.
 std::string words_of_plugin(std::string_view said);
@@ -107,7 +110,7 @@ using Made = std::unique_ptr<Interface, void (*)(void*) noexcept>;
 /// Makes a component. Throws PluginError with the words of its constructor when it fails.
 template <class Interface>
 Made<Interface> make(const RegisteredComponent& entry, std::span<const double> values) {
-  char error[512] = "";
+  char error[room_for_words] = "";
   void* object = entry.component->create(values.data(), error, sizeof error);
   if (object == nullptr) {
     throw PluginError(entry.file.string() + ": '" + entry.component->name +

@@ -38,7 +38,7 @@ Choice read_choice(Reading& reading, Section& section, ComponentKind kind, const
 void check_constructor(Reading& reading, const Choice& choice, const std::string& pointer) {
   const Component& component = *choice.component->component;
   // Not by make(), whose error names the library's file first: here the scene is at fault.
-  char error[512] = "";
+  char error[room_for_words] = "";
   if (void* made = component.create(choice.values.data(), error, sizeof error)) {
     component.destroy(made);
   } else {

@@ -44,6 +44,17 @@ void read_world(Reading& reading, Section& root) {
   read_damping(reading, root);
 }
 
+/// A quake that begins with a jump has shaken the scene for as long as it settled.
+void warn_of_ground_while_settling(Scene& scene) {
+  const VectorFunction& ground = scene.base_acceleration;
+  const Vec2 at_start{ground[0](0, {}), ground[1](0, {})};
+  if (!scene.settle || !varies_in_time(ground) || (at_start.x == 0 && at_start.y == 0)) return;
+  scene.warnings.push_back(
+      fmt::format("while the scene settles the ground is accelerated by ({:.3g}, {:.3g}) m/s², as at t = 0; "
+                  "begin the table of what sets in then with [0, 0]",
+                  at_start.x, at_start.y));
+}
+
 /// All but the stages.
 void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   read_format(root);
@@ -69,6 +80,7 @@ void read_sections(Reading& reading, Section& root, bool allow_plugins) {
   root.text("$schema", "the path of a JSON Schema", "");  // for editors
   root.resolved.erase("$schema");
   root.finish();
+  warn_of_ground_while_settling(reading.scene);
 }
 
 struct ReadText {

@@ -168,7 +168,8 @@ double Section::value(const Parameter& parameter) {
   }
   switch (parameter.kind) {
     case ParameterKind::number:
-      resolved[parameter.key] = plain(parameter.default_value);
+      // Without bounds is what no scene can write.
+      if (std::isfinite(parameter.default_value)) resolved[parameter.key] = plain(parameter.default_value);
       return to_si(parameter, parameter.default_value);
     case ParameterKind::flag:
       resolved[parameter.key] = parameter.default_value != 0;

@@ -116,7 +116,7 @@ bool Simulation::settle(const Pause& pause) {
   if (s.scene.settle->until && !s.settled()) {
     s.summary.warnings.push_back(fmt::format(
         "settling ended with its duration, {:.6g} s, at an unbalanced share of {:.3g}, not below {:.3g} as "
-        "/settle/until asks: what is left of the motion goes into the run",
+        "/settle/until asks: what is out of balance is let go from rest at t = 0",
         s.scene.settle->duration, s.unbalanced_share, *s.scene.settle->until));
   }
   s.warn_of_settlement();

@@ -3,6 +3,7 @@
 #include "descriptor.hpp"
 
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -20,6 +21,15 @@ class ThrowsControls final : public SilentLaw {
   }
 };
 
+class ThrowsLong final : public SilentLaw {
+ public:
+  explicit ThrowsLong(const double* values) : SilentLaw(values) {
+    std::string words;  // the end of the room is within a letter
+    for (int i = 0; i < 400; ++i) words += "ä";
+    throw std::invalid_argument(words);
+  }
+};
+
 class ThrowsSilence final : public SilentLaw {
  public:
   explicit ThrowsSilence(const double* values) : SilentLaw(values) { throw std::invalid_argument(""); }
@@ -32,8 +42,8 @@ class ThrowsNumber final : public SilentLaw {
 
 constexpr talus::Component components[] = {
     law<ThrowsWords>("throws_words"), law<ThrowsControls>("throws_controls"),
-    law<ThrowsSilence>("throws_silence"), law<ThrowsNumber>("throws_number")};
+    law<ThrowsSilence>("throws_silence"), law<ThrowsNumber>("throws_number"), law<ThrowsLong>("throws_long")};
 
 }  // namespace
 
-TALUS_EXPORT const talus::Library talus_library = descriptor(components, 4);
+TALUS_EXPORT const talus::Library talus_library = descriptor(components, 5);

@@ -103,6 +103,8 @@ TEST_CASE("Parameter tables are checked row by row", "[plugin]") {
   CHECK_THAT(with({number("a", "m", 0, 0, 1, "\x1b[2J")}), Contains("control characters"));
   CHECK_THAT(with({number("a", "\xb0", 0, 0, 1, ".")}), Contains("no UTF-8"));
   CHECK_THAT(with({number("a", "m", 2, 0, 1, ".")}), Contains("default 2 outside its range [0, 1]"));
+  CHECK_THAT(with({number("a", "m", -unbounded, -unbounded, 0, ".")}), Contains("found the default -inf"));
+  CHECK(with({number("a", "m", unbounded, 0, unbounded, ".")}) == "");
   CHECK_THAT(with({number("a", "m", 0, 1, 0, ".")}), Contains("range [1, 0]"));
   CHECK_THAT(with({number("a", "m", 0, required, 0, ".")}), Contains("the range [nan, 0]"));
   CHECK_THAT(with({choice("a", nullptr, 0, ".")}), Contains("choice without choices"));

@@ -134,3 +134,16 @@ TEST_CASE("the share of the critical step is larger where no bodies meet", "[sce
   CHECK_THAT(meeting[0].message,
              Catch::Contains("0.41 is out of range") && Catch::Contains("at most 0.4 where bodies can meet"));
 }
+
+TEST_CASE("a quake that sets in before t = 0 is told", "[scene]") {
+  const auto warnings = [](const std::string& ground, const std::string& settle) {
+    return sample::read(sample::good_with(settle + "\"base_acceleration\": [" + ground + ", 0]")).warnings;
+  };
+  const std::string settle = R"("settle": {"duration": 1, "damping": 5},)";
+  const std::vector<std::string> jump = warnings(R"({"scale": -4, "time": [[0.3, 1], [0.31, 0]]})", settle);
+  REQUIRE(jump.size() == 1);
+  CHECK_THAT(jump[0], Catch::Contains("the ground is accelerated by (-4, 0) m/s²"));
+  CHECK(warnings(R"({"scale": -4, "time": [[0, 0], [0.001, 1], [0.3, 0]]})", settle).empty());
+  CHECK(warnings("-4", settle).empty());
+  CHECK(warnings(R"({"scale": -4, "time": [[0.3, 1], [0.31, 0]]})", "").empty());
+}

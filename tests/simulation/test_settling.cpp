@@ -71,3 +71,16 @@ TEST_CASE("initial and driven velocities begin after settling", "[simulation][se
   CHECK(simulation.body_motion(2).velocity.x == Approx(0.5));
   CHECK(simulation.body_motion(2).displacement.x == 0);
 }
+
+TEST_CASE("what did not settle in time is told to be let go from rest, as it is", "[simulation][settle]") {
+  WorkingScene text;
+  text.bodies = box("floor", -1, -1, 2, 0, R"("fixed": true)") + "," + box("a", 0, 0.1, 1, 1);
+  text.gravity = "[0, -10]";
+  text.rest = R"("settle": {"duration": 0.05, "damping": 1, "until": 1e-9},)";
+  Simulation simulation(text.read(), {});
+  REQUIRE(simulation.settle());
+  REQUIRE_FALSE(simulation.summary().warnings.empty());
+  CHECK_THAT(simulation.summary().warnings[0],
+             Catch::Contains("what is out of balance is let go from rest at t = 0"));
+  CHECK(simulation.ledger().kinetic == 0);
+}

@@ -143,9 +143,10 @@ struct ContactBatch {
   const double* history;        ///< [slot * doubles_per_contact] as the law left it at t_{n-1}
   const std::uint32_t* active;  ///< [active_count] the pairs to evaluate, as indices into `pairs`, rising
   std::uint32_t active_count;
-  double dt;                  ///< s, from t_{n-1} to t_n; 0 at the first call of a run
-  bool hold_stick;            ///< settling: friction is held stuck, no slip limit applies
-  bool bonds_form;            ///< first evaluation and settling: contacts found now are born intact
+  double dt;        ///< s, from t_{n-1} to t_n; 0 at the first call of a run
+  bool hold_stick;  ///< settling: friction is held stuck, no slip limit applies; with μ = 0 there is
+                    ///< none, as ever
+  bool bonds_form;  ///< first evaluation and settling: contacts found now are born intact
   BatchPlan* plan = nullptr;  ///< of this batch, for the law to change; or none
   /// While it is the same, so is all of `pairs` and `piece_pairs` but contact_count, and the slots of pairs
   /// that had none.
@@ -188,7 +189,8 @@ struct PairReport {
                         ///< pushes
   double penetration;   ///< m, the largest overlap depth of the pair
   double stored;        ///< J/m, recoverable energy, 0 or more: normal and tangential springs
-  double slip_loss;     ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets)
+  double slip_loss;  ///< J/m, dissipated by friction since t_{n-1} (also energy dropped by a law's resets);
+                     ///< never negative
   double damping_power;  ///< J/m, damping force of t_n times displacement since t_{n-1}; never negative
   double gap;  ///< m, 0, or of a pair without contact: the bodies are at least so far apart, and the law need
                ///< not be asked again until they may have come so much closer

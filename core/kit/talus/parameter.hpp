@@ -22,7 +22,8 @@ struct Parameter {
   const char* key;
   const char* unit;  ///< "Pa/m", "deg", "-" for a pure number
   ParameterKind kind;
-  double default_value;  ///< in the user's unit; `required` when a scene must state it
+  double default_value;  ///< in the user's unit; `required` when a scene must state it; `unbounded`, or 1e300
+                         ///< and more, is told as "not set"
   double minimum;        ///< in the user's unit, inclusive
   double maximum;
   const char* choices;   ///< "first|second|third" for a choice, nullptr otherwise

@@ -77,6 +77,10 @@ class AreaLaw : public talus::ContactModel {
            seen.longest[0].working_velocity(seen.longest_side[0], friction_point(seen, 0), seen.tangent);
   }
   virtual double time_step(const ContactBatch& batch) const { return batch.dt; }
+  virtual double slipping(bool slips) const { return slips ? 1 : 0; }
+  virtual double shear_energy(const Seen& seen, double force) const {
+    return seen.spring > 0 ? force * force / (2 * seen.spring) : 0;
+  }
   virtual double trial(const Seen& seen, double old, double slip) const { return old - seen.spring * slip; }
   virtual double limit(const Seen& seen, double /*trial*/, double load) const { return seen.friction * load; }
   virtual Point friction_point(const Seen& seen, int /*body*/) const { return seen.centre; }
@@ -163,7 +167,7 @@ class AreaLaw : public talus::ContactModel {
                      const BodyPair& pair, talus::PairReport& report) const {
     report = {};
     const Seen seen = look(batch, pair, position);
-    const double old = kept(batch, pair), held = seen.spring > 0 ? old * old / (2 * seen.spring) : 0;
+    const double old = kept(batch, pair), held = shear_energy(seen, old);
     if (!(seen.area > 0)) {
       report.slip_loss = loss(seen, 0, -held);
       apart(batch, loads, seen, report);
@@ -185,16 +189,20 @@ class AreaLaw : public talus::ContactModel {
 
     const double load = p * length(seen.outward);
     double force = 0;
+    bool slips = false;
     if (load > 0 && seen.longest_stretch[0] > 0 && seen.longest_stretch[1] > 0 && seen.friction > 0) {
       const double slip = slip_velocity(seen) * time_step(batch);
       force = trial(seen, old, slip);
       const double most = limit(seen, force, load);
-      if (!holds_stick(batch)) force = std::fmax(-most, std::fmin(most, force));
+      if (!holds_stick(batch)) {
+        slips = std::fabs(force) > most;
+        force = std::fmax(-most, std::fmin(most, force));
+      }
       for (int body = 0; body < 2; ++body) {
         sink.at_point(seen.longest[body], seen.longest_side[body], friction_point(seen, body),
                       (body == 1 ? force : -force) * seen.tangent);
       }
-      const double stored = force * force / (2 * seen.spring);
+      const double stored = shear_energy(seen, force);
       report.stored += stored;
       report.slip_loss = loss(seen, -(old + force) / 2 * slip, stored - held);
     } else {
@@ -217,7 +225,7 @@ class AreaLaw : public talus::ContactModel {
                                         rub.x,
                                         rub.y,
                                         report.penetration,
-                                        0,
+                                        slipping(slips),
                                         moment_on_b(batch, pair, loads, seen.centre)};
     }
   }
