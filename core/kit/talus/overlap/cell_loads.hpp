@@ -68,13 +68,19 @@ struct Balance {
   double moment_about(Point point) const { return moment - cross(point - origin, force); }
 };
 
-/// A side of the slave that bounds the overlap, for a cell that no slave boundary enters.
-inline std::uint32_t any_real_side(const Overlap& overlap, const Piece& slave) {
+/// The side of the slave that bounds most of the overlap, for a cell that no slave boundary enters. Not the
+/// first that does, which would go by who is body a, and the other way round in a mirror image.
+inline std::uint32_t longest_real_side(const Overlap& overlap, const Piece& slave) {
   const std::uint32_t slave_body = &slave == &overlap.piece[0] ? 0 : 1;
-  for (const Corner& corner : overlap.polygon) {
-    if (corner.side.body == slave_body && slave.real(corner.side.index)) return corner.side.index;
-  }
+  double longest = -1;
   std::uint32_t side = 0;
+  for (std::size_t i = 0; i < overlap.polygon.size(); ++i) {
+    const Corner& corner = overlap.polygon[i];
+    if (corner.side.body != slave_body || !slave.real(corner.side.index)) continue;
+    const double here = length(overlap.polygon[overlap.polygon.next(i)].at - corner.at);
+    if (here > longest) longest = here, side = corner.side.index;
+  }
+  if (longest >= 0) return side;
   while (side + 1 < slave.size() && !slave.real(side)) ++side;
   return side;
 }
@@ -94,7 +100,7 @@ InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, c
   if (segments.size() == 1) return parameters_with(segments[0].side);
   double total = 0, borne = 0, slips = 0;
   for (const Segment& segment : segments) total += segment.facing_share();
-  if (!(total > 0)) return parameters_with(any_real_side(overlap, slave));
+  if (!(total > 0)) return parameters_with(longest_real_side(overlap, slave));
   InterfaceParameters mean;
   const double stiffness = parameters_with(segments[0].side).normal_stiffness;
   bool alike = true;

@@ -17,7 +17,8 @@ struct LoadedSide {
   Piece piece;
   std::uint32_t side = 0;
   Point foot{0, 0};
-  double load = 0;  ///< N/m
+  double load = 0;         ///< N/m
+  bool as_master = false;  ///< it is that of the master of its cell
 };
 
 /// Where the stiffness changes within an overlap, or a deep one reaches past a cut, the pressure jumps along
@@ -34,9 +35,13 @@ class ClosingLoads {
   void add(Point at, Point load) { all_.add(at, load); }
   /// What presses on a line within a body, from one side; from the other its neighbour does.
   void add_within(std::uint32_t body, Point at, Point load) { within_[body].add(at, load); }
-  /// Of these the side with the largest load takes what is left over on its body.
+  /// Of these the side with the largest load takes what is left over on its body. A cell of a body and the
+  /// one where it is slave often come with the same load: then rounding, or who is body a, must not decide.
   void may_bear(std::uint32_t body, const LoadedSide& side) {
-    if (side.load > bears_[body].load && side.piece.length(side.side) > 0) bears_[body] = side;
+    constexpr double alike = 1e-9;
+    const LoadedSide& before = bears_[body];
+    const double handicap = (before.as_master ? alike : 0) - (side.as_master ? alike : 0);
+    if (side.load > (1 + handicap) * before.load && side.piece.length(side.side) > 0) bears_[body] = side;
   }
 
   /// Loads of both bodies so that nothing is left over.
