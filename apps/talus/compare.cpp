@@ -81,7 +81,7 @@ std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) 
   std::set<std::string> kept;
   for (const std::string& value : order.variation.values) kept.insert(folder_of_value(value));
   for (const auto& run : before->at("runs")) {
-    const std::string name = folder_of_value(run.at("value").get<std::string>());
+    const std::string name = std::filesystem::path(run.at("folder").get<std::string>()).filename().string();
     if (!kept.contains(name)) left_over.push_back(order.folder / name);
   }
   return left_over;
@@ -116,10 +116,14 @@ FolderLock prepare_folders(const ComparisonOrder& order, bool overwrite,
   for (const std::filesystem::path& folder : of_runs) refuse_output_folder(folder, overwrite, read);
   prepare_output_folder(order.folder, overwrite, read);
   FolderLock lock(order.folder);
+  // Whatever ends this program, the next one knows which runs are of it, or left over.
+  const auto begin = [&](const std::vector<std::filesystem::path>& others) {
+    write_whole_file(order.folder / "compare.json", begun_comparison_json(order, others));
+  };
+  begin(left_over);
   for (const std::filesystem::path& folder : of_runs) prepare_output_folder(folder, overwrite, read);
   for (const std::filesystem::path& run : left_over) remove_run(run, read);
-  // Whatever ends this program, the next one knows which runs are of it.
-  write_whole_file(order.folder / "compare.json", begun_comparison_json(order));
+  begin({});
   return lock;
 }
 

@@ -165,7 +165,8 @@ int new_plugin_command(const Words& words) {
   const std::string name = text_option(*given, "NAME");
   check_name(usage, load_registry(usage, *given), name);
   const std::string out = text_option(*given, "out");
-  const fs::path folder = fs::absolute(out.empty() ? name : out).lexically_normal();
+  fs::path folder = fs::absolute(out.empty() ? name : out).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // written with a slash at its end
   if (is_there(folder)) {
     throw InputError(
         fmt::format("'{}' exists: nothing was written; take another NAME or --out DIR", folder.string()));

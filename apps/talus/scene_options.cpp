@@ -1,8 +1,8 @@
 #include "scene_options.hpp"
 
-#include "files/folder_lock.hpp"
 #include "files/input_error.hpp"
 #include "files/whole_file.hpp"
+#include "output/output_folder.hpp"
 #include "terminal.hpp"
 
 #include <fmt/format.h>
@@ -122,9 +122,7 @@ std::filesystem::path output_folder(const po::variables_map& given, const SceneF
   std::filesystem::path folder = out.empty()
                                      ? std::filesystem::path("out") / (scene.file.stem().string() + suffix)
                                      : std::filesystem::path(out);
-  std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
-  FolderLock::refuse_busy(whole.parent_path());
+  refuse_among_runs_at_work(folder);
   return folder;
 }
 

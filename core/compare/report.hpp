@@ -23,8 +23,10 @@ CostRatio cost_ratio(const ComparedRun& run, const ComparedRun& baseline);
 /// compare.json.
 std::string comparison_json(const ComparisonOrder& order, const Comparison& comparison);
 
-/// The same before there are runs: which folders are theirs, should nobody come to write more.
-std::string begun_comparison_json(const ComparisonOrder& order);
+/// The same before there are runs: which folders are theirs, should nobody come to write more, and which
+/// `others` of an earlier comparison are still there.
+std::string begun_comparison_json(const ComparisonOrder& order,
+                                  const std::vector<std::filesystem::path>& others);
 
 /// compare.csv: "t [s]", then "<value>/<monitor>.<quantity> [unit]", at the times of the baseline; empty
 /// where a run did not get so far.

@@ -132,12 +132,15 @@ std::string comparison_json(const ComparisonOrder& order, const Comparison& comp
   return text_of(json);
 }
 
-std::string begun_comparison_json(const ComparisonOrder& order) {
+std::string begun_comparison_json(const ComparisonOrder& order,
+                                  const std::vector<std::filesystem::path>& others) {
   Json json = head_json(order);
+  json["ended"] = false;
   json["runs"] = Json::array();
   for (const std::string& value : order.variation.values)
-    json["runs"].push_back(
-        {{"value", value}, {"folder", folder_of_value(value)}, {"end", name_of(RunEnd::interrupted)}});
+    json["runs"].push_back({{"value", value}, {"folder", folder_of_value(value)}});
+  for (const std::filesystem::path& other : others)
+    json["runs"].push_back({{"value", other.filename().string()}, {"folder", other.filename().string()}});
   return text_of(json);
 }
 

@@ -24,6 +24,7 @@ DiagnosedStep look_at(const Simulation& simulation) {
   step.dt = simulation.last_dt();
   step.kinetic = ledger.kinetic;
   step.residual = ledger.residual;
+  step.damped = ledger.contact_damping_loss;
   step.share = ledger.throughput > 0 ? std::abs(ledger.residual) / ledger.throughput : 0;
   for (const Contact& contact : simulation.contacts()) {
     const double depth = contact.penetration / std::min(simulation.body_width(contact.body_a),
@@ -111,11 +112,15 @@ std::vector<std::string> advice_for(const Scene& scene, const Diagnosis& diagnos
   std::vector<std::string> advice;
   if (unbalanced || scene.time.dt) advise_on_step(scene, diagnosis.bound, diagnosis.steps.back().dt, advice);
   advise_on_overlap(scene, diagnosis.steps, advice);
-  if (unbalanced)
-    advice.push_back(
-        "damp the contacts (normal_damping, tangential_damping of the interface) if they bounce where they "
-        "should rest");
   const Component* law = scene.contact.component == nullptr ? nullptr : scene.contact.component->component;
+  // As the error of the run: the work of dashpots is booked to the first order in the step.
+  const DiagnosedStep& last = diagnosis.steps.back();
+  if (unbalanced && law != nullptr)
+    advice.emplace_back(
+        last.damped * last.share > scene.limits.energy_residual * std::abs(last.residual)
+            ? "give the interface less normal_damping, if a smaller step does not do"
+            : "damp the contacts (normal_damping, tangential_damping of the interface) if they "
+              "bounce where they should rest");
   if (unbalanced && law != nullptr && (law->traits & trait::has_potential) == 0)
     advice.push_back(fmt::format(
         "where that changes nothing, '{}', which has no potential, makes or loses the energy; see "

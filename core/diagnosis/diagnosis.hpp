@@ -14,6 +14,7 @@ struct DiagnosedStep {
   double kinetic = 0;       ///< J/m
   double residual = 0;      ///< J/m that the ledger misses
   double share = 0;         ///< of the throughput
+  double damped = 0;        ///< J/m, taken by dashpots of contacts
   double penetration = 0;   ///< m, of the deepest contact, if there is any
   double depth = 0;         ///< share of the smaller width of its bodies
   std::uint32_t body_a = 0, body_b = 0;

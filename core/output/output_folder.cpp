@@ -10,10 +10,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -94,9 +98,15 @@ std::vector<fs::path> runs_of_study(const fs::path& folder) {
   return runs;
 }
 
-void refuse_file(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_directory(folder))
+/// What is no folder, and one that nobody may write into: it, or the nearest that it would lie in.
+void refuse_unfit(const fs::path& folder) {
+  if (fs::exists(fs::symlink_status(folder)) && !fs::is_directory(folder))
     throw InputError(fmt::format("'{}' is in the way: it is a file, not a folder", folder.string()));
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw std::system_error(errno, std::generic_category(),
+                            fmt::format("cannot write into '{}'", folder.string()));
 }
 
 /// The one of the files that were `read` that a result is, or null: results of before are what they are by
@@ -145,7 +155,7 @@ void remove_files_of_run(const fs::path& run) {
 
 std::vector<fs::path> refuse_output_folder(const fs::path& folder, bool overwrite,
                                            const std::vector<fs::path>& read) {
-  refuse_file(folder);
+  refuse_unfit(folder);
   FolderLock::refuse_busy(folder);
   std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && !overwrite) {
@@ -169,7 +179,7 @@ void prepare_output_folder(const fs::path& folder, bool overwrite, const std::ve
 }
 
 void prepare_folder_of_runs(const fs::path& folder, const std::vector<fs::path>& read) {
-  refuse_file(folder);
+  refuse_unfit(folder);
   if (const std::vector<fs::path> results = results_in(folder); !results.empty()) {
     throw InputError(fmt::format(
         "'{}' holds results of {} ('{}'): give --out another folder", folder.string(),
@@ -187,7 +197,10 @@ void remove_study(const fs::path& folder, const std::function<bool(const fs::pat
     for (fs::path& file : results_in(run)) files.push_back(std::move(file));
   }
   for (const fs::path& file : files) refuse_to_remove(file, read);
-  for (const fs::path& run : runs) FolderLock::refuse_busy(run);
+  for (const fs::path& run : runs) {
+    FolderLock::refuse_busy(run);
+    refuse_unfit(run);
+  }
   for (const fs::path& table : present(folder, files_of_study)) fs::remove(table);
   for (const fs::path& run : runs) remove_files_of_run(run);
 }
@@ -198,6 +211,14 @@ void remove_run(const fs::path& folder, const std::vector<fs::path>& read) {
     if (read_as(file, read) != nullptr) return;
   }
   remove_files_of_run(folder);
+}
+
+void refuse_among_runs_at_work(const fs::path& folder) {
+  const fs::path whole = fs::weakly_canonical(fs::absolute(folder));
+  for (fs::path around = whole.parent_path(); around.has_relative_path(); around = around.parent_path()) {
+    if (fs::exists(around / "compare.json") || fs::exists(around / "run_0001"))
+      FolderLock::refuse_busy(around);
+  }
 }
 
 bool holds_finished_run(const fs::path& folder) {

@@ -35,6 +35,10 @@ void remove_study(const std::filesystem::path& folder,
                   const std::function<bool(const std::filesystem::path& run)>& stays,
                   const std::vector<std::filesystem::path>& read);
 
+/// Throws InputError where a folder lies within that of a comparison or a study at work, which would take
+/// what is written there for its own.
+void refuse_among_runs_at_work(const std::filesystem::path& folder);
+
 /// Whether it holds a run that came to its end, as far as its record can be read.
 bool holds_finished_run(const std::filesystem::path& folder);
 

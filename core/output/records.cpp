@@ -134,11 +134,18 @@ std::optional<Json> run_record_in(const fs::path& folder) {
 }
 
 Json read_comparison_record(const fs::path& folder) {
-  return read_record(folder / "compare.json", "comparison", due_of_comparison);
+  Json record = read_record(folder / "compare.json", "comparison", due_of_comparison);
+  if (!record.value("ended", true))
+    throw InputError(fmt::format(
+        "the comparison in '{}' is at work, or was broken off before its end: wait for it, or begin it anew "
+        "with --overwrite",
+        folder.string()));
+  return record;
 }
 
 std::optional<Json> comparison_record_in(const fs::path& folder) {
-  return if_whole(folder / "compare.json", [&] { return read_comparison_record(folder); });
+  return if_whole(folder / "compare.json",
+                  [&] { return read_record(folder / "compare.json", "comparison", due_of_comparison); });
 }
 
 bool holds_comparison(const fs::path& folder) {

@@ -94,17 +94,19 @@ void check_fixed(Section& section, const SceneBody& body) {
 
 /// Initial velocities must not contradict what holds the body.
 void check_start(Section& section, const SceneBody& body) {
-  const auto check = [&](const char* key, double given, const std::optional<double>& held) {
-    if (given == 0 || std::isnan(given) || (!body.fixed && (!held || *held == given))) return;
+  const auto contradicts = [&](double given, const std::optional<double>& held) {
+    return given != 0 && !std::isnan(given) && (body.fixed || (held && *held != given));
+  };
+  const auto tell = [&](const char* key) {
     section.mistakes().add(
         section.pointer_to(key),
         fmt::format("{} contradicts what holds the body: {}", shown(Json(section.resolved[key])),
                     body.fixed ? "a \"fixed\" body stays at rest"
                                : "\"fix\" or \"drive\" prescribes another velocity"));
   };
-  check("velocity", body.velocity.x, body.support.x);
-  check("velocity", body.velocity.y, body.support.y);
-  check("angular_velocity", body.angular_velocity, body.support.rotation);
+  if (contradicts(body.velocity.x, body.support.x) || contradicts(body.velocity.y, body.support.y))
+    tell("velocity");
+  if (contradicts(body.angular_velocity, body.support.rotation)) tell("angular_velocity");
 }
 
 void check_model(Reading& reading, Section& section, const SceneBody& body) {

@@ -46,13 +46,17 @@ void read_world(Reading& reading, Section& root) {
 
 /// A quake that begins with a jump has shaken the scene for as long as it settled.
 void warn_of_ground_while_settling(Scene& scene) {
-  const VectorFunction& ground = scene.base_acceleration;
-  const Vec2 at_start{ground[0](0, {}), ground[1](0, {})};
-  if (!scene.settle || !varies_in_time(ground) || (at_start.x == 0 && at_start.y == 0)) return;
-  scene.warnings.push_back(
-      fmt::format("while the scene settles the ground is accelerated by ({:.3g}, {:.3g}) m/s², as at t = 0; "
-                  "begin the table of what sets in then with [0, 0]",
-                  at_start.x, at_start.y));
+  const auto at_start_of = [](const Function& ground) {  // without what always acts
+    double sum = 0;
+    for (const Product& term : ground.terms) sum += term.time ? term.scale * (*term.time)(0) : 0;
+    return sum;
+  };
+  const Vec2 at_start{at_start_of(scene.base_acceleration[0]), at_start_of(scene.base_acceleration[1])};
+  if (!scene.settle || (at_start.x == 0 && at_start.y == 0)) return;
+  scene.warnings.push_back(fmt::format(
+      "while the scene settles, tables of base_acceleration act with ({:.3g}, {:.3g}) m/s², as at t = 0; "
+      "begin the table of what sets in then with [0, 0]",
+      at_start.x, at_start.y));
 }
 
 /// All but the stages.

@@ -346,6 +346,8 @@ TEST_CASE("a comparison that cannot have all its folders takes nothing away", "[
                                          "--overwrite", "--set", "/time/end=0.1"});
   };
   REQUIRE(compare("a,b,c").code == 0);
+  std::filesystem::create_symlink("nowhere", scratch / "o/d");
+  CHECK_THAT(compare("a,d").err, Contains("o/d' is in the way"));
   const FolderLock lock(scratch / "o/c");
   for (const char* values : {"a,c", "a,b"}) {  // the last leaves over what is being written
     const Call call = compare(values);
@@ -368,12 +370,17 @@ TEST_CASE("nobody writes into a folder that a comparison fills", "[apps][compare
       0);
   const std::string before = read_whole_file(scratch / "o/a/run.json");
   const FolderLock lock(scratch / "o");
-  for (const char* folder : {"o/a", "o/a/"}) {
+  std::filesystem::create_directory_symlink("o/a", scratch / "link");
+  for (const char* folder : {"o/a", "o/a/", "o/deeper/within", "link"}) {
     const Call call = call_talus(scratch.folder(), {"run", "small.json", "--out", folder, "--overwrite"});
     CHECK(call.code == 2);
     CHECK_THAT(call.err, Contains("o' is being written by another talus"));
   }
   CHECK(read_whole_file(scratch / "o/a/run.json") == before);
+  // Beside a single run there is room.
+  std::filesystem::create_directory(scratch / "single");
+  const FolderLock of_run(scratch / "single");
+  CHECK(call_talus(scratch.folder(), {"run", "small.json", "--out", "single/other", "--quiet"}).code == 0);
 }
 
 TEST_CASE("a comparison that was killed leaves no runs beside those of the next", "[apps][compare]") {
@@ -384,7 +391,10 @@ TEST_CASE("a comparison that was killed leaves no runs beside those of the next"
       {"compare", "small.json", "--vary", "/title=a,b", "--out", "o", "--set", "/time/end=200"}, SIGKILL,
       scratch / "o/a/history.csv");
   REQUIRE(killed.code == 128 + SIGKILL);
-  REQUIRE(json_of(scratch / "o/compare.json")["runs"][1]["end"] == "interrupted");
+  REQUIRE(json_of(scratch / "o/compare.json")["ended"] == false);
+  const Call report = call_talus(scratch.folder(), {"report", "o"});
+  CHECK(report.code == 2);
+  CHECK_THAT(report.err, Contains("was broken off before its end"));
   const std::vector<std::string> next{"compare", "small.json", "--vary", "/title=c,d", "--out", "o"};
   CHECK_THAT(call_talus(scratch.folder(), next).err, Contains("'o' holds results already"));
   std::vector<std::string> anew = next;

@@ -81,6 +81,16 @@ TEST_CASE("a new plugin has all its files and its name everywhere", "[apps]") {
   CHECK(fs::exists(scratch / "deep/er/b.cpp"));
 }
 
+TEST_CASE("a new plugin goes to a folder that is written with a slash at its end", "[apps]") {
+  const Scratch scratch;
+  for (const char* out : {"mine/", "./other/."}) {
+    const Call call = call_talus(scratch.folder(), {"new-plugin", "material", "mine", "--out", out});
+    INFO(call.err);
+    CHECK(call.code == 0);
+    CHECK(fs::exists(scratch / out / "mine.cpp"));
+  }
+}
+
 TEST_CASE("a new plugin is refused in words, and nothing is written", "[apps]") {
   const Scratch scratch;
   const auto refused = [&](const std::vector<std::string>& words) {
