@@ -49,6 +49,15 @@ inline Point mean_velocity(const Piece& piece) {
   return (1.0 / piece.size()) * sum;
 }
 
+/// Whether a body b of a batch begins at a place that is no number.
+inline bool has_no_number(const ContactBatch& batch) {
+  for (std::uint32_t k = 0; k < batch.active_count; ++k) {
+    const talus::PiecePair pieces = batch.piece_pairs.at(batch.pairs[batch.active[k]], 0);
+    if (std::isnan(batch.boundaries.corner[batch.boundaries.piece_start[pieces.b]].x)) return true;
+  }
+  return false;
+}
+
 class AreaLaw : public talus::ContactModel {
  public:
   explicit AreaLaw(const double* /*values*/) {}

@@ -11,10 +11,7 @@ class Crashes final : public AreaLaw {
 
  private:
   void begin(const ContactBatch& batch, const ContactLoads& /*loads*/) const override {
-    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
-      const talus::PiecePair pieces = batch.piece_pairs.at(batch.pairs[batch.active[k]], 0);
-      if (std::isnan(batch.boundaries.corner[batch.boundaries.piece_start[pieces.b]].x)) __builtin_trap();
-    }
+    if (has_no_number(batch)) __builtin_trap();
   }
 };
 

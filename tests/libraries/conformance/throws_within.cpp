@@ -13,11 +13,7 @@ class ThrowsWithin final : public AreaLaw {
 
  private:
   void begin(const ContactBatch& batch, const ContactLoads& /*loads*/) const override {
-    for (std::uint32_t k = 0; k < batch.active_count; ++k) {
-      const talus::PiecePair pieces = batch.piece_pairs.at(batch.pairs[batch.active[k]], 0);
-      if (std::isnan(batch.boundaries.corner[batch.boundaries.piece_start[pieces.b]].x))
-        throw std::runtime_error("no place for this corner");
-    }
+    if (has_no_number(batch)) throw std::runtime_error("no place for this corner");
   }
 };
 
