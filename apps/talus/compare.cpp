@@ -82,7 +82,8 @@ std::vector<std::filesystem::path> runs_left_over(const ComparisonOrder& order) 
   for (const std::string& value : order.variation.values) kept.insert(folder_of_value(value));
   for (const auto& run : before->at("runs")) {
     const std::string name = std::filesystem::path(run.at("folder").get<std::string>()).filename().string();
-    if (!kept.contains(name)) left_over.push_back(order.folder / name);
+    // No more than a folder of ours: a record may be damaged, and ".." leads elsewhere.
+    if (!kept.contains(name) && folder_of_value(name) == name) left_over.push_back(order.folder / name);
   }
   return left_over;
 }

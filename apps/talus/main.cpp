@@ -8,6 +8,7 @@
 #include "scene_options.hpp"
 #include "simulation/simulation.hpp"
 #include "terminal.hpp"
+#include "text/thrown.hpp"
 
 #include <fmt/format.h>
 
@@ -89,17 +90,10 @@ void open_standard_streams() {
 /// What is thrown out of a function that promises not to throw ends the program at once. Libraries are asked
 /// through such functions alone, so it is theirs as a rule.
 [[noreturn]] void abort_in_words() {
-  std::string thrown = "something that is no std::exception";
-  try {
-    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
-  } catch (const std::exception& problem) {
-    thrown = problem.what();
-  } catch (...) {
-  }
   tell(fmt::format(
       "error: '{}' was thrown where nothing may be: most likely by a contact law, a material or a cover, "
       "whose functions are noexcept; `talus check-plugin` tells which; what was written so far stays\n",
-      thrown));
+      words_of_thrown()));
   std::abort();
 }
 

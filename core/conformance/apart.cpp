@@ -1,6 +1,7 @@
 #include "conformance/apart.hpp"
 
 #include "plugin/registry.hpp"
+#include "text/thrown.hpp"
 
 #include <fmt/format.h>
 
@@ -48,13 +49,7 @@ class SharedNotes {
 Trial::Notes* notes_of_child = nullptr;
 
 [[noreturn]] void end_with_what_was_thrown() {
-  std::string thrown = "something that is no std::exception";
-  try {
-    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
-  } catch (const std::exception& problem) {
-    thrown = words_of_plugin(problem.what());
-  } catch (...) {
-  }
+  const std::string thrown = words_of_plugin(words_of_thrown());
   Trial(*notes_of_child).due(false, fmt::format("'{}' thrown where nothing may be", thrown), "an answer");
   notes_of_child->finished = true;
   _exit(1);

@@ -8,8 +8,8 @@ namespace talus {
 
 /// Makes the folder that results go to. One that holds results already, or that another run writes into, is
 /// refused (InputError); with `overwrite` it is cleared of results: of files that talus writes, never of
-/// others. Refused is, too, what would take away a file that was `read` to make the results. Runs of a study
-/// stay; its tables do not.
+/// others. Refused is, too, one that may not be written (std::system_error), and what would take away a file
+/// that was `read` to make the results. Runs of a study stay; its tables do not.
 void prepare_output_folder(const std::filesystem::path& folder, bool overwrite,
                            const std::vector<std::filesystem::path>& read = {});
 

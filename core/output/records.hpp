@@ -14,8 +14,9 @@ nlohmann::ordered_json read_run_record(const std::filesystem::path& folder);
 /// The same; nothing where there is none or it is damaged, for those who make such a run again.
 std::optional<nlohmann::ordered_json> run_record_in(const std::filesystem::path& folder);
 
-/// What compare.json of a folder says, likewise.
+/// What compare.json of a folder says, likewise; of a comparison that did not come to its end it throws, too.
 nlohmann::ordered_json read_comparison_record(const std::filesystem::path& folder);
+/// Also while it is at work: which runs are of it.
 std::optional<nlohmann::ordered_json> comparison_record_in(const std::filesystem::path& folder);
 
 /// Whether a folder holds a comparison, not a run. Throws InputError where it holds neither.

@@ -403,3 +403,16 @@ TEST_CASE("a comparison that was killed leaves no runs beside those of the next"
   CHECK_FALSE(std::filesystem::exists(scratch / "o/a"));
   CHECK(json_of(scratch / "o/compare.json")["runs"][1]["end"] == "finished");
 }
+
+TEST_CASE("a damaged record of a comparison leads to no folder beside its own", "[apps][compare]") {
+  const Scratch scratch;
+  scratch.write("small.json", small_scene());
+  REQUIRE(call_talus(scratch.folder(), {"run", "small.json", "--out", "all", "--quiet"}).code == 0);
+  std::filesystem::create_directory(scratch / "all/o");
+  scratch.write("all/o/compare.json", R"({"varied": "/title", "runs": [{"value": "a", "folder": ".."}]})");
+  const Call call = call_talus(scratch.folder(), {"compare", "small.json", "--vary", "/title=b,c", "--out",
+                                                  "all/o", "--overwrite", "--set", "/time/end=0.1"});
+  INFO(call.err);
+  CHECK(call.code == 0);
+  CHECK(std::filesystem::exists(scratch / "all/run.json"));
+}
