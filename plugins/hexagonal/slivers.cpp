@@ -1,22 +1,18 @@
 #include "slivers.hpp"
 
+#include "targets.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <map>
+#include <utility>
 
 namespace talus::hexagonal {
 namespace {
 
-/// The continuation of an element says little about places farther away than this, in hexagons.
-constexpr int most_steps = 8;
-
 /// Below this share of a hexagon a row sum is rounding, and the patch cannot be left alone.
 constexpr double smallest_share = 1e-14;
-
-double twice_area(Point p, Point q, Point r) {
-  return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-}
 
 /// Shape functions of a triangle (Eq. 14), continued beyond it.
 std::array<double, 3> weights_at(const std::array<Point, 3>& corner, Point at) {
@@ -26,114 +22,67 @@ std::array<double, 3> weights_at(const std::array<Point, 3>& corner, Point at) {
   return {1 - second - third, second, third};
 }
 
-struct Search {
-  const Connectivity& connectivity;
-  const std::vector<Point>& stars;
-  std::vector<std::uint8_t> poor;                       // [patch]
-  std::vector<std::uint32_t> first_of, of_patch;        // elements of each patch
-  std::vector<std::uint32_t> seen_element, seen_patch;  // by which patch's search, + 1
+/// What a patch may follow, the best first.
+struct Choices {
+  std::vector<Steadied> all;
+  std::size_t next = 0;
 
-  std::array<Point, 3> corners(std::uint32_t element) const {
-    const auto& patch = connectivity.elements[element].patch;
-    return {stars[patch[0]], stars[patch[1]], stars[patch[2]]};
-  }
-
-  bool is_good(std::uint32_t element) const {
-    const auto& patch = connectivity.elements[element].patch;
-    return poor[patch[0]] == 0 && poor[patch[1]] == 0 && poor[patch[2]] == 0;
-  }
-
-  /// The square of the distance over that of the side of an element. On a lattice many are alike but for
-  /// rounding, which is not to decide: a twin of other size or place would follow others.
-  double distance_class(std::uint32_t element, Point from) const {
-    const auto [p, q, r] = corners(element);
-    const double x = (p.x + q.x + r.x) / 3 - from.x, y = (p.y + q.y + r.y) / 3 - from.y;
-    const double side = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
-    return std::round((x * x + y * y) / (1e-6 * side));
-  }
-
-  /// Elements of the patches that have not been seen.
-  std::vector<std::uint32_t> elements_of(const std::vector<std::uint32_t>& patches, std::uint32_t stamp) {
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t patch : patches) {
-      for (std::uint32_t k = first_of[patch]; k < first_of[patch + 1]; ++k) {
-        if (seen_element[of_patch[k]] == stamp) continue;
-        seen_element[of_patch[k]] = stamp;
-        result.push_back(of_patch[k]);
-      }
-    }
-    return result;
-  }
-
-  std::vector<std::uint32_t> patches_of(const std::vector<std::uint32_t>& elements, std::uint32_t stamp) {
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t element : elements) {
-      for (const std::uint32_t patch : connectivity.elements[element].patch) {
-        if (seen_patch[patch] == stamp) continue;
-        seen_patch[patch] = stamp;
-        result.push_back(patch);
-      }
-    }
-    return result;
-  }
-
-  /// Good elements connected with the patch, nearest first: those in the fewest steps over shared patches,
-  /// and one step beyond, since nearer ones may be there.
-  std::vector<std::uint32_t> targets(std::uint32_t patch) {
-    const std::uint32_t stamp = patch + 1;
-    std::vector<std::uint32_t> found, patches{patch};
-    seen_patch[patch] = stamp;
-    int last_step = most_steps;
-    for (int step = 1; step <= last_step && !patches.empty(); ++step) {
-      const std::vector<std::uint32_t> elements = elements_of(patches, stamp);
-      const bool first_found = found.empty();
-      std::copy_if(elements.begin(), elements.end(), std::back_inserter(found),
-                   [&](std::uint32_t element) { return is_good(element); });
-      if (first_found && !found.empty()) last_step = std::min(last_step, step + 1);
-      patches = patches_of(elements, stamp);
-    }
-    const Point star = stars[patch];
-    std::sort(found.begin(), found.end(), [&](std::uint32_t m, std::uint32_t n) {
-      const double to_m = distance_class(m, star), to_n = distance_class(n, star);
-      return to_m != to_n ? to_m < to_n : m < n;
-    });
-    return found;
-  }
+  const Steadied& asked() const { return all[next]; }
 };
 
-Search prepare(const Connectivity& connectivity, const std::vector<Point>& stars,
-               const std::vector<double>& row_sums, double least) {
-  Search search{connectivity,
-                stars,
-                {},
-                std::vector<std::uint32_t>(stars.size() + 1, 0),
-                {},
-                std::vector<std::uint32_t>(connectivity.elements.size(), 0),
-                std::vector<std::uint32_t>(stars.size(), 0)};
-  for (const double sum : row_sums) search.poor.push_back(sum < least ? 1 : 0);
-  for (const auto& element : connectivity.elements) {
-    for (const std::uint32_t patch : element.patch) ++search.first_of[patch + 1];
-  }
-  std::partial_sum(search.first_of.begin(), search.first_of.end(), search.first_of.begin());
-  std::vector<std::uint32_t> fill(search.first_of.begin(), search.first_of.end() - 1);
-  search.of_patch.resize(search.first_of.back());
-  for (std::uint32_t e = 0; e < connectivity.elements.size(); ++e) {
-    for (const std::uint32_t patch : connectivity.elements[e].patch) search.of_patch[fill[patch]++] = e;
-  }
-  return search;
-}
-
 /// What a merged patch weighs is spread over the three it follows, and weights beyond a triangle are
-/// negative. None may lose more than half of its own, or it would dictate the time step in turn.
-bool spread(std::vector<double>& carried, const std::vector<double>& row_sums, const Steadied& steadied) {
-  const double amount = row_sums[steadied.patch];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t patch = steadied.to[k];
-    if (carried[patch] + amount * steadied.weights[k] < row_sums[patch] / 2) return false;
+/// negative. None may lose more than half of its own, or it would dictate the time step in turn: those who
+/// together take too much of one follow what is next for them.
+class Spread {
+ public:
+  explicit Spread(const std::vector<double>& row_sums) : row_sums_(row_sums), carried_(row_sums) {}
+
+  /// Patches that lie alike in the body: none comes before another.
+  void add(std::vector<Choices> waiting) {
+    while (!waiting.empty()) serve(waiting);
   }
-  for (std::size_t k = 0; k < 3; ++k) carried[steadied.to[k]] += amount * steadied.weights[k];
-  return true;
-}
+
+  /// In the order of patches.
+  std::vector<Steadied> result() && {
+    std::sort(result_.begin(), result_.end(),
+              [](const Steadied& one, const Steadied& other) { return one.patch < other.patch; });
+    return std::move(result_);
+  }
+
+ private:
+  /// Those leave that get what they ask for, and those that have nothing left to ask for.
+  void serve(std::vector<Choices>& waiting) {
+    std::erase_if(waiting, [](const Choices& one) { return one.next == one.all.size(); });
+    std::map<std::uint32_t, double> taken;
+    for (const Choices& one : waiting) {
+      const Steadied& asked = one.asked();
+      for (std::size_t k = 0; k < 3; ++k) taken[asked.to[k]] += std::fmin(load(asked, k), 0);
+    }
+    const auto left = std::stable_partition(waiting.begin(), waiting.end(), [&](const Choices& one) {
+      return !takes_too_much(one.asked(), taken);
+    });
+    for (auto one = waiting.begin(); one != left; ++one) {
+      for (std::size_t k = 0; k < 3; ++k) carried_[one->asked().to[k]] += load(one->asked(), k);
+      result_.push_back(one->asked());
+    }
+    waiting.erase(waiting.begin(), left);
+    for (Choices& one : waiting) ++one.next;
+  }
+
+  double load(const Steadied& one, std::size_t k) const { return row_sums_[one.patch] * one.weights[k]; }
+
+  bool takes_too_much(const Steadied& one, const std::map<std::uint32_t, double>& taken) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t patch = one.to[k];
+      if (load(one, k) < 0 && carried_[patch] + taken.at(patch) < row_sums_[patch] / 2) return true;
+    }
+    return false;
+  }
+
+  const std::vector<double>& row_sums_;
+  std::vector<double> carried_;
+  std::vector<Steadied> result_;
+};
 
 }  // namespace
 
@@ -160,25 +109,28 @@ std::vector<Steadied> steady_slivers(const Connectivity& connectivity, const std
                                      const std::vector<double>& row_sums, double full, Slivers treatment,
                                      double share) {
   const double least = full * (treatment == Slivers::keep ? smallest_share : std::max(share, smallest_share));
-  Search search = prepare(connectivity, stars, row_sums, least);
-  std::vector<double> carried = row_sums;
-  std::vector<Steadied> result;
+  Targets targets(connectivity, stars, row_sums, least);
+  std::map<double, std::vector<Choices>> alike;  // by the distance from the middle of the body
+  std::vector<Steadied> scaled;
   for (std::uint32_t patch = 0; patch < stars.size(); ++patch) {
-    if (search.poor[patch] == 0) continue;
-    for (const std::uint32_t element : search.targets(patch)) {
-      Steadied steadied{patch, connectivity.elements[element].patch,
-                        weights_at(search.corners(element), stars[patch]),
-                        std::numeric_limits<double>::infinity()};
-      if (treatment == Slivers::mass_scale) {
-        steadied.inertia_area = least - row_sums[patch];
-      } else if (!spread(carried, row_sums, steadied)) {
-        continue;
-      }
-      result.push_back(steadied);
-      break;
+    if (!targets.is_poor(patch)) continue;
+    const double inertia_area =
+        treatment == Slivers::mass_scale ? least - row_sums[patch] : std::numeric_limits<double>::infinity();
+    Choices choices;
+    for (const std::uint32_t element : targets.of(patch)) {
+      choices.all.push_back({patch, connectivity.elements[element].patch,
+                             weights_at(targets.corners(element), stars[patch]), inertia_area});
+    }
+    if (treatment != Slivers::mass_scale) {
+      alike[targets.distance_from_middle(patch)].push_back(std::move(choices));
+    } else if (!choices.all.empty()) {
+      scaled.push_back(choices.asked());
     }
   }
-  return result;
+  if (treatment == Slivers::mass_scale) return scaled;
+  Spread spread(row_sums);
+  for (auto& [distance, choices] : alike) spread.add(std::move(choices));
+  return std::move(spread).result();
 }
 
 }  // namespace talus::hexagonal

@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 using namespace talus::covered;
 
@@ -20,6 +23,29 @@ std::size_t poor_patches(const RecordedCover& cover, double share) {
   std::size_t count = 0;
   for (const double sum : row_sums(cover)) count += sum < share * full ? 1 : 0;
   return count;
+}
+
+/// Who follows whom, by places: as often as it is there in the mirror image of `other` (x to -x).
+bool mirrors(const RecordedCover& one, const RecordedCover& other) {
+  const auto places = [](const RecordedCover& cover, double sign) {
+    std::map<std::pair<long, long>, std::set<std::pair<long, long>>> result;
+    const auto place = [&](std::uint32_t patch) {
+      const Point star = cover.stars[patch];
+      return std::pair{std::lround(sign * star.x * 1e6), std::lround(star.y * 1e6)};
+    };
+    for (const Steadied& steadied : cover.steadied) {
+      for (const std::uint32_t to : steadied.to) result[place(steadied.patch)].insert(place(to));
+    }
+    return result;
+  };
+  return places(one, 1) == places(other, -1);
+}
+
+DrawnBody plate(double half_width, double half_height) {
+  return DrawnBody({{{-half_width, -half_height},
+                     {half_width, -half_height},
+                     {half_width, half_height},
+                     {-half_width, half_height}}});
 }
 
 }  // namespace
@@ -90,6 +116,29 @@ TEST_CASE("what a patch follows is the same at any size of the body, turned and 
         CHECK(other[k].to == one[k].to);
         CHECK(shifted[k].to == one[k].to);
       }
+    }
+  }
+}
+
+TEST_CASE("neither side of a body that is its own mirror image is treated otherwise",
+          "[plugins][hexagonal]") {
+  for (const auto treatment : {merge, mass_scale}) {
+    const RecordedCover cover = lay(plate(0.5, 0.5), {0.1, {0.05, 0}, 0, treatment, 0.1});
+    REQUIRE(cover.steadied.size() > 10);
+    CHECK(mirrors(cover, cover));
+  }
+}
+
+TEST_CASE("patches that compete for an element do so in a mirror image, too", "[plugins][hexagonal]") {
+  // Coarse: whom a patch follows often would lose more than half, and who asks first decides.
+  for (const auto treatment : {merge, mass_scale}) {
+    for (int i = 0; i < 40; ++i) {
+      const double half_width = 0.9215 - 0.007 * i, size = 0.508 - 0.005 * i;
+      const DrawnBody body = plate(half_width, 0.134);
+      const RecordedCover one = lay(body, {size, {0, 0}, 17, treatment, 0.1}),
+                          other = lay(body, {size, {0, 0}, -17, treatment, 0.1});
+      CAPTURE(i);
+      CHECK(mirrors(one, other));
     }
   }
 }
