@@ -131,7 +131,7 @@ TEST_CASE("A run goes on from any step with the same bits", "[checkpoint]") {
 }
 
 TEST_CASE("Materials, stages, settling and loads go on with the same bits", "[checkpoint]") {
-  check_goes_on(from_text(lattice_with_memory), 31);
+  check_goes_on(from_text(lattice_with_memory), 23);
   check_goes_on(from_text(driven_stages), 31);
   check_goes_on(from_text(fixed_between), 7);
 }
