@@ -2,26 +2,15 @@
 
 namespace talus {
 
-double Simulation::State::rotation_since_start(std::uint32_t body) const {
-  return rotation[body] - (rotation_at_start.empty() ? 0 : rotation_at_start[body]);
-}
-
 PartPoint Simulation::State::point(const MaterialPoint& at, Vec2 as_drawn) const {
   const bool whole = at.carrier.patch[0] == no_patch;
   const Vec2 now = motion.displacement(at),
-             before =
-                 whole ? displacement_at_start(at.body, at.reference) : displacement_at_start(at.carrier),
+             before = whole ? since_start.displacement_at_start(at.body, at.reference)
+                            : since_start.displacement_at_start(at.carrier),
              speed = !whole            ? carried(at.carrier, patch_velocity_at_step)
                      : velocities_left ? velocity(motion.velocity_at_step(at.body), at.reference)
                                        : velocity(motion.bodies[at.body], at.reference);
   return {as_drawn + now, now - before, speed};
-}
-
-Vec2 Simulation::State::displacement_at_start(std::uint32_t body, Vec2 reference) const {
-  return start.empty() ? Vec2{} : displacement(start[body], reference);
-}
-Vec2 Simulation::State::displacement_at_start(const Carrier& carrier) const {
-  return start.empty() ? Vec2{} : carried(carrier, start_displacement);
 }
 
 Motion Simulation::State::motion_of(std::uint32_t body) const {
@@ -33,10 +22,10 @@ Motion Simulation::State::motion_of(std::uint32_t body) const {
     const double share = model.patch_mass[p] / b.mass;
     const auto add = [&](Vec2& sum, Vec2 value) { sum += share * value; };
     add(now, motion.patch_displacement[p]);
-    if (scene.settle) add(before, start_displacement[p]);
+    add(before, since_start.displacement_at_start(p));
     add(speed, patch_velocity_at_step[p]);
   }
-  return {b.centre + now, now - before, speed, rotation_since_start(body)};
+  return {b.centre + now, now - before, speed, since_start.rotation(body)};
 }
 
 Motion Simulation::State::motion_of(std::uint32_t body, std::uint32_t element, Vec2 as_drawn) const {
@@ -44,7 +33,7 @@ Motion Simulation::State::motion_of(std::uint32_t body, std::uint32_t element, V
   MaterialPoint at{body, as_drawn - centre, {}};
   if (model.covered(body)) at.carrier = model.carrier(model.elements[element], at.reference);
   const PartPoint seen = point(at, as_drawn);
-  return {seen.position, seen.displacement, seen.velocity, rotation_since_start(body)};
+  return {seen.position, seen.displacement, seen.velocity, since_start.rotation(body)};
 }
 
 std::uint32_t Simulation::State::element_at(std::uint32_t body, Vec2 as_drawn) const {

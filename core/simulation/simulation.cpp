@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -47,58 +46,6 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 const Scene& Simulation::scene() const {
   return state_->as_given ? *state_->as_given : state_->scene;
-}
-
-std::string Simulation::take_geometry(const Geometry& geometry) {
-  const NoSubnormals as_in_steps;
-  State& s = *state_;
-  const Geometry mine = this->geometry();
-  if (geometry.unknowns.size() != mine.unknowns.size() || geometry.stars != mine.stars)
-    return "its bodies or patches are not those of the other";
-  if (may_bond(s.scene)) return "bonds may form, and do so where bodies are drawn";
-  const double* from = geometry.unknowns.data();
-  for (std::size_t i = 0; i < s.motion.bodies.size(); ++i, from += 6) {
-    const std::uint32_t index = s.numbering.inside(i);
-    BodyMotion& body = s.motion.bodies[index];
-    body.u = {from[0], from[1]};
-    body.h = {from[2], from[3], from[4], from[5]};
-    if (s.model.bodies[index].kinematics == Kinematics::rigid) body.h = rotation_of(body.h);
-  }
-  for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
-    const Body& body = s.model.bodies[s.numbering.inside(i)];
-    const CoverRanges& ranges = s.model.ranges(body);
-    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p, from += 2)
-      s.motion.patch_displacement[p] = {from[0], from[1]};
-  }
-  if (geometry.memory.size() == mine.memory.size() && geometry.own_end == mine.own_end &&
-      geometry.numbering == mine.numbering)
-    s.deformation.set_memory(geometry.memory);
-  return {};
-}
-
-Geometry Simulation::geometry() const {
-  const State& s = *state_;
-  Geometry geometry;
-  for (std::size_t i = 0; i < s.motion.bodies.size(); ++i) {
-    const BodyMotion& body = s.motion.bodies[s.numbering.inside(i)];
-    for (const double value : {body.u.x, body.u.y, body.h.xx, body.h.xy, body.h.yx, body.h.yy}) {
-      geometry.unknowns.push_back(value);
-    }
-  }
-  for (std::size_t i = 0; i < s.model.bodies.size(); ++i) {
-    const Body& body = s.model.bodies[s.numbering.inside(i)];
-    const CoverRanges& ranges = s.model.ranges(body);
-    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
-      const Vec2 displacement = s.motion.patch_displacement[p];
-      geometry.unknowns.insert(geometry.unknowns.end(), {displacement.x, displacement.y});
-      const Vec2 star = s.model.patch_star[p];
-      geometry.stars.insert(geometry.stars.end(), {star.x, star.y});
-    }
-    geometry.own_end.push_back(ranges.own_end - ranges.patch_begin);
-  }
-  geometry.memory = s.deformation.memory();
-  geometry.numbering = s.numbering.inner;
-  return geometry;
 }
 
 bool Simulation::settle(const Pause& pause) {
@@ -144,12 +91,8 @@ bool Simulation::advance(const Pause& pause) {
     s.set_initial_velocities();
     if (s.scene.settle) {
       s.summary.dt = 0;  // of the run, not of the stage before
-      s.start = s.motion.bodies;
-      s.start_displacement = s.motion.patch_displacement;
     }
-    s.bring_rotation_up_to_date();
-    if (std::ranges::any_of(s.rotation, [](double angle) { return angle != 0; }))
-      s.rotation_at_start = s.rotation;
+    s.since_start.begin(s.model, s.motion);
     s.begin(output_time(1));
     s.warn_of_large_step();
     s.warn_of_initial_overlap();
@@ -165,13 +108,13 @@ bool Simulation::advance(const Pause& pause) {
   }
   s.watched = false;
   ++s.output;
-  s.bring_rotation_up_to_date();
+  s.since_start.follow(s.model, s.motion);
   s.check_balance();
   return true;
 }
 
 bool Simulation::look_now() {
-  state_->bring_rotation_up_to_date();
+  state_->since_start.follow(state_->model, state_->motion);
   return state_->to_be_seen;
 }
 
