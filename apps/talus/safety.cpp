@@ -12,6 +12,7 @@
 #include "preview_rows.hpp"
 #include "safety/collapse.hpp"
 #include "safety/mechanism.hpp"
+#include "safety/strength.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
 #include "text/nearest.hpp"

@@ -9,12 +9,14 @@ namespace talus {
 namespace {
 
 constexpr double seen = 1e-3;      ///< share of the size
+constexpr double plain = 0.01;     ///< share of the size, while there is time: what swings may come less far
 constexpr double lost = 0.05;      ///< share of the size: whatever stops further on has failed, too
 constexpr double steady = 0.45;    ///< of the way, in the second half of the time: one half at constant speed
 constexpr double kept = 0.9;       ///< of the speed in the middle, at the end
 constexpr double all_kept = 0.99;  ///< of it, while there is time: what relaxes slowly loses more
 constexpr double slowing = 0.25;   ///< of the way, and of that speed: slower, but not at rest
 constexpr double crawling = 0.8;   ///< of the way that the speed at the end would make in the second half
+constexpr double swung = 0.98;     ///< of the farthest: what is nearer came back
 constexpr double crept = 1e-3;     ///< of the way: less is the last of what an elastic body has to give
 
 /// Along x and y; turning a body drives its vertices along both.
@@ -83,7 +85,7 @@ std::vector<Vec2> Pieces::places(const Simulation& simulation) const {
 
 PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec2>& began) const {
   const std::vector<double> none(pieces_.size());
-  PieceMotions motions{none, none, none, simulation.time()};
+  PieceMotions motions{none, none, none, {}, simulation.time()};
   std::size_t vertex = 0;
   for (const std::size_t body : bodies_) {
     over_vertices(simulation, body, [&](std::size_t, const PartPoint& point) {
@@ -97,6 +99,7 @@ PieceMotions Pieces::motions(const Simulation& simulation, const std::vector<Vec
       grow(motions.speed[piece], point.velocity);
     });
   }
+  motions.farthest = motions.way;
   return motions;
 }
 
@@ -106,7 +109,9 @@ Course Pieces::course(std::size_t piece, const PieceMotions& middle, const Piece
   const bool far = way > seen * size, keeps_speed = end.speed[piece] > kept * middle.speed[piece];
   if (end.moved[piece] > lost * size)
     return lately > 1e-3 * end.moved[piece] ? Course::failed : Course::stopped;
-  const bool steadily = last || end.speed[piece] > all_kept * middle.speed[piece];
+  const bool swings = way < swung * end.farthest[piece];
+  const bool sure = way > plain * size && end.speed[piece] > all_kept * middle.speed[piece];
+  const bool steadily = !swings && (last || sure);
   if (keeps_speed && lately > steady * way) return far && steadily ? Course::failed : Course::goes_on;
   // At a constant speed, after it gave way by more than that when its strength was cut.
   const bool crawls = lately > crept * way && lately > crawling * end.speed[piece] * (end.time - middle.time);

@@ -22,7 +22,8 @@ struct FollowedPiece {
 /// is when it had settled; and the largest speed of one, m/s.
 struct PieceMotions {
   std::vector<double> moved, way, speed;
-  double time;  ///< s
+  std::vector<double> farthest;  ///< [piece] m, the way at any look so far
+  double time;                   ///< s
 };
 
 enum class Course { rests, goes_on, failed, stopped };  ///< the last failed, too, and has come to rest
@@ -40,7 +41,7 @@ class Pieces {
   /// How a piece fares between the middle and the end of a run: failed, where it came far or goes on and has
   /// come far enough to tell; one that slows down goes on, too, until it rests. Whether it goes on its way in
   /// the run tells; what it moved while it settled would hide that. Unless it is the `last` look at it, one
-  /// that loses a hundredth of its speed is given more time.
+  /// that loses a hundredth of its speed is given more time. One that was farther before goes to and fro.
   Course course(std::size_t piece, const PieceMotions& middle, const PieceMotions& end, bool last) const;
 
   /// Bodies of which a piece moved so far that it has failed, wherever it stopped.

@@ -1,8 +1,8 @@
 #include "safety/safety.hpp"
 
-#include "files/input_error.hpp"
 #include "plugin/parameters.hpp"
 #include "safety/collapse.hpp"
+#include "safety/strength.hpp"
 #include "text/nearest.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -19,38 +18,11 @@ namespace talus {
 namespace {
 
 constexpr double stride = 1.25;  ///< of the factor, while neither bound is known
+constexpr int looks = 8;         ///< at what moves, in half of the time that the scene lasts
 constexpr int longest = 8;       ///< times as long as the scene says a run goes on to be told
 /// A body that goes on so slowly that a run would have to be so many times as long once more is named.
 constexpr double last_look = 4;
 constexpr double jammed = 0.01;  ///< of its width: what comes so far and rests has met something
-
-/// Divides what of these values is strength; returns whether any is.
-bool reduce(std::span<const Parameter> parameters, double factor, std::vector<double>& values) {
-  bool reduced = false;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string_view key = parameters[i].key;
-    if (key.ends_with("friction_angle")) {
-      reduced = reduced || values[i] > 0;
-      values[i] = std::atan(std::tan(values[i]) / factor);
-    } else if (key.ends_with("friction_coefficient") || key.ends_with("cohesion") ||
-               key.ends_with("tensile_strength")) {
-      reduced = reduced || values[i] > 0;
-      values[i] /= factor;
-    }
-  }
-  // Rock that has less friction dilates no more than that allows.
-  const auto friction = index_of(parameters, "friction_angle"),
-             dilation = index_of(parameters, "dilation_angle");
-  if (friction && dilation) values[*dilation] = std::min(values[*dilation], values[*friction]);
-  return reduced;
-}
-
-/// The same of a material, which a rigid body has none of.
-bool reduce(Choice& model, double factor) {
-  return model.component != nullptr &&
-         reduce({model.component->component->parameters, model.component->component->parameter_count}, factor,
-                model.values);
-}
 
 /// Cosine of what the normals of contacts on one face of a body differ by.
 constexpr double one_face = 0.9;
@@ -59,7 +31,7 @@ class Reduction {
  public:
   Reduction(const Scene& scene, const SafetySettings& settings) : scene_(scene), settings_(settings) {
     scene_.output.frames.reset();
-    scene_.output.history = scene_.time.end / 2;
+    scene_.output.history = scene_.time.end / (2 * looks);
     hold_loads();
     scene_.time.end *= longest;
     run_.threads = settings.threads;
@@ -272,25 +244,30 @@ class Reduction {
 
   /// Until it is clear whether it stands, each time twice as long as before. False if it was interrupted.
   bool follow(Simulation& simulation, ReducedRun& result) const {
+    const auto next = [&] { return simulation.advance(settings_.interrupted) && simulation.history_due(); };
+    if (!next()) return false;  // t = 0
+    const std::vector<Vec2> began = pieces_->places(simulation);
+    PieceMotions middle, end = pieces_->motions(simulation, began);
     const auto advance = [&](int halves) {
-      for (int i = 0; i < halves; ++i) {
-        if (!simulation.advance(settings_.interrupted) || !simulation.history_due()) return false;
+      for (int i = 0; i < halves * looks; ++i) {
+        if (!next()) return false;
+        PieceMotions now = pieces_->motions(simulation, began);
+        std::ranges::transform(now.way, end.farthest, now.farthest.begin(),
+                               [](double here, double before) { return std::max(here, before); });
+        end = std::move(now);
       }
       return true;
     };
-    const std::vector<Vec2> began = pieces_->places(simulation);
     // What follows a load that still grows goes on, too: whether it does without is seen after the end.
     int times = loads_change_late_ ? 2 : 1;
-    if (!advance(1 + times)) return false;  // t = 0 and half of the time, or all of it
-    PieceMotions middle = pieces_->motions(simulation, began);
+    if (!advance(times)) return false;
     for (;; times *= 2) {
+      middle = end;
       if (!advance(times)) return false;
-      PieceMotions end = pieces_->motions(simulation, began);
       const double to_tell = judge(middle, end, static_cast<double>(longest) / times, result);
       result.lasted = simulation.time();
       result.kinetic = simulation.ledger().kinetic;
       if (result.collapsed || times == longest || to_tell * times > longest) return true;
-      middle = std::move(end);
     }
   }
 
@@ -342,31 +319,6 @@ class Reduction {
 };
 
 }  // namespace
-
-Scene with_reduced_strength(const Scene& scene, double factor) {
-  Scene reduced = scene;
-  reduced.stages.clear();
-  // What creeps against damping has no acceleration to speak of, and would be put to sleep.
-  reduced.sleep.reset();
-  for (SceneBody& body : reduced.bodies) {
-    body.velocity = {};
-    body.angular_velocity = 0;
-  }
-  bool any = false;
-  if (const RegisteredComponent* law = scene.contact.component; law != nullptr) {
-    for (std::vector<double>& row : reduced.interface_values)
-      any = reduce({law->component->interface_parameters, law->component->interface_parameter_count}, factor,
-                   row) ||
-            any;
-  }
-  for (SceneMaterial& material : reduced.materials) {
-    any = reduce(material.model, factor) || any;
-  }
-  if (!any)
-    throw InputError(
-        "no interface and no material of the scene has friction, cohesion or tensile strength to reduce");
-  return reduced;
-}
 
 std::optional<double> Safety::factor() const {
   if (!stands || !falls) return std::nullopt;

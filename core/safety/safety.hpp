@@ -9,11 +9,6 @@
 
 namespace talus {
 
-/// The scene with tan φ, cohesion and tensile strength of all interfaces, and of materials that have them,
-/// divided by a factor, and a dilation angle no larger than the friction left. Without stages and without
-/// velocities at the start. Throws InputError where nothing could be reduced.
-Scene with_reduced_strength(const Scene& scene, double factor);
-
 /// A part of a body that strains uniformly: where it stood, and how far its corners came.
 struct MovedPart {
   struct Point {

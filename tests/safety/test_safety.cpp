@@ -3,6 +3,7 @@
 #include "figures/runs.hpp"
 #include "files/input_error.hpp"
 #include "safety/mechanism.hpp"
+#include "safety/strength.hpp"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -64,6 +65,32 @@ double wedge_factor() {
 }
 
 }  // namespace
+
+TEST_CASE("What still rocks when it has settled stands", "[safety]") {
+  // A polygon of 24 sides on a slope of 3°, where its side bears it near an end: it rocks once in some
+  // seconds.
+  const double slope = -3 * degree, apothem = std::cos(7.5 * degree);
+  const auto turned = [&](double x, double y) {
+    return fmt::format("[{}, {}]", x * std::cos(slope) - y * std::sin(slope),
+                       x * std::sin(slope) + y * std::cos(slope));
+  };
+  std::string corners;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = (-82.5 + 15 * i) * degree;
+    corners += (i > 0 ? ", " : "") + turned(std::cos(angle), std::sin(angle) + apothem);
+  }
+  const Scene scene = from_text(fmt::format(
+      R"({{"talus": 1, "gravity": [0, -9.81],
+        "materials": {{"rock": {{"density": 2500}}}}, "cover": {{"model": "rigid"}},
+        "contact": {{"model": "overlap_area"}},
+        "interfaces": [{{"between": ["*", "*"], "normal_stiffness": 3e8, "tangential_stiffness": 3e8, "friction_angle": 35,
+                        "normal_damping": 0.3, "tangential_damping": 0.3}}],
+        "bodies": [{{"name": "base", "polygon": [{}, {}, {}, {}], "material": "rock", "fixed": true}},
+                   {{"name": "a", "polygon": [{}], "material": "rock"}}],
+        "settle": {{"duration": 1, "damping": 50}}, "time": {{"end": 0.3}}}})",
+      turned(-5, -1), turned(5, -1), turned(5, 0), turned(-5, 0), corners));
+  CHECK(factor_of(scene) == Approx(std::tan(35 * degree) / std::tan(3 * degree)).epsilon(0.03));
+}
 
 TEST_CASE("One block on an incline has the factor of safety tan φ / tan θ", "[safety][slow_sanitised]") {
   for (const char* friction : {"31", "45"}) {
