@@ -2,6 +2,8 @@
 
 #include <talus/overlap/grouping.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <span>
 
 namespace talus::overlap {
@@ -68,9 +70,10 @@ struct Balance {
   double moment_about(Point point) const { return moment - cross(point - origin, force); }
 };
 
-/// The side of the slave that bounds most of the overlap, for a cell that no slave boundary enters. Not the
-/// first that does, which would go by who is body a, and the other way round in a mirror image.
-inline std::uint32_t longest_real_side(const Overlap& overlap, const Piece& slave) {
+/// The side of the slave that bounds most of the overlap, for a cell that no slave boundary enters; the
+/// nearest where none bounds it, as when a strip lies within the slave. Not the first, which would go by
+/// where a polygon starts or who is body a, and the other way round in a mirror image.
+inline std::uint32_t bounding_side(const Overlap& overlap, const Piece& slave) {
   const std::uint32_t slave_body = &slave == &overlap.piece[0] ? 0 : 1;
   double longest = -1;
   std::uint32_t side = 0;
@@ -81,7 +84,12 @@ inline std::uint32_t longest_real_side(const Overlap& overlap, const Piece& slav
     if (here > longest) longest = here, side = corner.side.index;
   }
   if (longest >= 0) return side;
-  while (side + 1 < slave.size() && !slave.real(side)) ++side;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < slave.size(); ++i) {
+    if (!slave.real(i)) continue;
+    const double here = slave.depth(i, overlap.region.centroid);
+    if (here < nearest) nearest = here, side = i;
+  }
   return side;
 }
 
@@ -100,7 +108,7 @@ InterfaceParameters interface_of(const Law& law, const Interfaces& interfaces, c
   if (segments.size() == 1) return parameters_with(segments[0].side);
   double total = 0, borne = 0, slips = 0;
   for (const Segment& segment : segments) total += segment.facing_share();
-  if (!(total > 0)) return parameters_with(longest_real_side(overlap, slave));
+  if (!(total > 0)) return parameters_with(bounding_side(overlap, slave));
   InterfaceParameters mean;
   const double stiffness = parameters_with(segments[0].side).normal_stiffness;
   bool alike = true;

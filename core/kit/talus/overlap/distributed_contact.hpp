@@ -395,7 +395,7 @@ class DistributedContact {
                     slave.velocity_inside(normal_.segments[s].side, cell.shear_at, tangent_);
       }
       if (!(total > 0))
-        on_slave = slave.velocity_inside(longest_real_side(*cell.overlap, slave), cell.shear_at, tangent_);
+        on_slave = slave.velocity_inside(bounding_side(*cell.overlap, slave), cell.shear_at, tangent_);
       const double on_master =
           dot(tangent_, master.velocity_at(cell.side, master.lever(cell.side, cell.shear_at)));
       velocity += (cell.master == 0 ? cell.shear : -cell.shear) * (on_slave - on_master);
@@ -414,7 +414,7 @@ class DistributedContact {
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s)
       total += normal_.segments[s].share();
     if (!(total > 0)) {
-      sink.inside(slave, longest_real_side(*cell.overlap, slave), cell.shear_at, on_slave);
+      sink.inside(slave, bounding_side(*cell.overlap, slave), cell.shear_at, on_slave);
       return;
     }
     for (std::uint32_t s = cell.segment_start; s < cell.segment_end; ++s) {

@@ -105,7 +105,7 @@ class NormalLoads {
         total_load_ += load;
         largest_side_ = std::max(largest_side_, master.length(side));
         closing_.may_bear(master_body, {master, side, foot, load, true});
-        closing_.may_bear(1 - master_body, {slave, longest_real_side(overlap, slave), foot, load});
+        closing_.may_bear(1 - master_body, {slave, bounding_side(overlap, slave), foot, load});
         // What a dashpot is measured by: the mean slope of the pressure.
         if constexpr (HasOwnPressure<Law>) parameters.normal_stiffness = load / (share * region.area);
         if (cells.size() > first_cell) {
