@@ -14,11 +14,11 @@ namespace {
 /// Below this share of a hexagon a row sum is rounding, and the patch cannot be left alone.
 constexpr double smallest_share = 1e-14;
 
-/// Shape functions of a triangle (Eq. 14), continued beyond it.
+/// Shape functions of an element (Eq. 14), continued to another vertex of the lattice: whole numbers.
 std::array<double, 3> weights_at(const std::array<Point, 3>& corner, Point at) {
   const double whole = twice_area(corner[0], corner[1], corner[2]);
-  const double second = twice_area(corner[0], at, corner[2]) / whole;
-  const double third = twice_area(corner[0], corner[1], at) / whole;
+  const double second = std::round(twice_area(corner[0], at, corner[2]) / whole);
+  const double third = std::round(twice_area(corner[0], corner[1], at) / whole);
   return {1 - second - third, second, third};
 }
 

@@ -143,6 +143,17 @@ TEST_CASE("patches that compete for an element do so in a mirror image, too", "[
   }
 }
 
+TEST_CASE("a weight that is zero but for rounding takes nothing of a patch", "[plugins][hexagonal]") {
+  const DrawnBody body(
+      {{{3.881053, 3.286199}, {2.079116, 2.899323}, {2.118947, 2.713801}, {3.920884, 3.100677}}}),
+      mirrored(
+          {{{-3.881053, 3.286199}, {-3.920884, 3.100677}, {-2.118947, 2.713801}, {-2.079116, 2.899323}}});
+  const RecordedCover one = lay(body, {0.467, body.centroid(), 0, merge, 0.1}),
+                      other = lay(mirrored, {0.467, mirrored.centroid(), 0, merge, 0.1});
+  CHECK(one.steadied.size() == 4);
+  CHECK(mirrors(one, other));
+}
+
 TEST_CASE("a patch follows its own part of the body only", "[plugins][hexagonal]") {
   // Cut along a line 1e-6 above the lattice: what the upper part has of the row_height below is a sliver,
   // right above good elements of the other part.
