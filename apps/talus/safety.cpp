@@ -13,6 +13,7 @@
 #include "safety/collapse.hpp"
 #include "safety/mechanism.hpp"
 #include "safety/strength.hpp"
+#include "scene/section.hpp"
 #include "scene_options.hpp"
 #include "terminal.hpp"
 #include "text/nearest.hpp"
