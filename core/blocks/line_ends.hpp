@@ -1,7 +1,7 @@
 #pragma once
 
 #include "blocks/cut.hpp"
-#include "blocks/segment_tree.hpp"
+#include "geometry/segment_tree.hpp"
 
 #include <functional>
 #include <vector>

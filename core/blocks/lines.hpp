@@ -1,7 +1,7 @@
 #pragma once
 
-#include "blocks/geos.hpp"
 #include "geometry/box.hpp"
+#include "geometry/geos.hpp"
 
 #include <cstdint>
 #include <vector>

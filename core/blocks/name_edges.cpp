@@ -1,5 +1,5 @@
 #include "blocks/faces.hpp"
-#include "blocks/segment_tree.hpp"
+#include "geometry/segment_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "blocks/pinches.hpp"
 
-#include "blocks/geos.hpp"
 #include "geometry/box.hpp"
+#include "geometry/geos.hpp"
 #include "geometry/place.hpp"
 #include "geometry/polygon.hpp"
 

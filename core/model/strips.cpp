@@ -1,5 +1,6 @@
 #include "model/strips.hpp"
 
+#include "geometry/segment_tree.hpp"
 #include "model/fragments.hpp"
 
 #include <talus/contact_model.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace talus {
@@ -36,6 +38,51 @@ ReferenceSide reference_side(const Model& model, std::uint32_t side) {
   const Vec2 span = end - start;
   return {start, end, unit(span), std::sqrt(dot(span, span))};
 }
+
+/// The sides of a body, by where they are and which fragment they bound.
+class SidesNear {
+ public:
+  SidesNear(const Model& model, std::uint32_t body)
+      : first_(model.ranges(model.bodies[body]).side_begin),
+        sides_(segments_of(model, body)),
+        tree_(sides_, geos_) {
+    const CoverRanges& ranges = model.ranges(model.bodies[body]);
+    Fragments fragments(ranges);
+    for (std::size_t e = model.elements.size(); e > 0 && model.element_body[e - 1] == body; --e)
+      fragments.add(model.elements[e - 1]);
+    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
+      fragment_.push_back(static_cast<std::uint32_t>(fragments.of(model.sides[side].start.carrier.patch[0])));
+  }
+
+  std::uint32_t fragment_of(std::uint32_t side) const { return fragment_[side - first_]; }
+
+  /// Of the same fragment, where the boxes around both are within `gap` along x and y; in no order.
+  void each_of_fragment(std::uint32_t side, double gap,
+                        const std::function<void(std::uint32_t)>& visit) const {
+    const PlainSegment& own = sides_[side - first_];
+    Box box = box_around({own.from, own.to});
+    box.low = box.low - Vec2{gap, gap};
+    box.high = box.high + Vec2{gap, gap};
+    tree_.each_near(box, [&](std::size_t other) {
+      if (fragment_[other] == fragment_of(side)) visit(first_ + static_cast<std::uint32_t>(other));
+    });
+  }
+
+ private:
+  static std::vector<PlainSegment> segments_of(const Model& model, std::uint32_t body) {
+    const CoverRanges& ranges = model.ranges(model.bodies[body]);
+    std::vector<PlainSegment> segments;
+    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
+      segments.push_back({model.sides[side].start.reference, model.sides[side].end.reference});
+    return segments;
+  }
+
+  std::uint32_t first_;
+  std::vector<PlainSegment> sides_;
+  Geos geos_;
+  SegmentTree tree_;
+  std::vector<std::uint32_t> fragment_;  ///< [side]
+};
 
 /// Visits the sides further along a stretch without reflex corner, with the angle turned so far, until
 /// `visit` says no or twice the depth is walked.
@@ -98,24 +145,17 @@ struct Ray {
   Vec2 from, direction;
 };
 
-/// Whether boxes around two sides are further apart than `gap` along x or y.
-bool are_apart(const Model& model, std::uint32_t p, std::uint32_t q, double gap) {
-  const auto apart = [&](double Vec2::*axis) {
-    const double a = model.sides[p].start.reference.*axis, b = model.sides[p].end.reference.*axis,
-                 c = model.sides[q].start.reference.*axis, d = model.sides[q].end.reference.*axis;
-    return std::min(c, d) - std::max(a, b) > gap || std::min(a, b) - std::max(c, d) > gap;
-  };
-  return apart(&Vec2::x) || apart(&Vec2::y);
-}
-
 /// Depth behind a side at which another part of the boundary is as near, seen from three points of the side
 /// and along the bisectors at its ends: to the lines of other sides where they are met, and to every corner.
 /// Sides that compete with it have their say later; of other fragments there is none behind it. Exact as far
 /// as it is below `wanted`: what is more than five times that away allows more, for bisectors are no longer
 /// than three.
-double equal_depth(const Model& model, const Body& body, std::uint32_t side, double wanted,
-                   const std::vector<char>& near) {
-  const CoverRanges& ranges = model.ranges(body);
+double equal_depth(const Model& model, std::uint32_t side, double wanted, const SidesNear& sides_near,
+                   const std::vector<std::uint32_t>& competitors) {
+  const auto is_beside = [&](std::uint32_t other) {
+    return other == side || other == model.next_side[side] || other == model.previous_side[side] ||
+           std::ranges::find(competitors, other) != competitors.end();
+  };
   const ReferenceSide own = reference_side(model, side);
   const Vec2 normal = inward(own.tangent);
   const Vec2 before = reference_side(model, model.previous_side[side]).tangent,
@@ -133,8 +173,8 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
   const End ends[] = {end_between(own.start, before, own.tangent), end_between(own.end, own.tangent, after)};
 
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t other = ranges.side_begin; other < ranges.side_end; ++other) {
-    if (near[other - ranges.side_begin] != 0 || are_apart(model, side, other, 5 * wanted)) continue;
+  sides_near.each_of_fragment(side, 5 * wanted, [&](std::uint32_t other) {
+    if (is_beside(other)) return;
     const ReferenceSide there = reference_side(model, other);
     const auto meet = [&](const Ray& ray) {
       const Vec2 other_normal = inward(there.tangent);
@@ -151,7 +191,7 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
       const double distance = end.tip ? distance_to_side(end.bisector.from, there) : 0;
       if (distance > rounding) least = std::min(least, distance / 2);
     }
-    if (near[model.previous_side[other] - ranges.side_begin] != 0) continue;
+    if (is_beside(model.previous_side[other])) return;
     for (const auto& [bisector, reflex, tip] : ends) {
       // Around a reflex corner the strip fans out.
       const Vec2 way = there.start - bisector.from;
@@ -160,10 +200,10 @@ double equal_depth(const Model& model, const Body& body, std::uint32_t side, dou
     }
     const Vec2 way = there.start - own.start;
     const double behind = dot(way, normal), along_side = dot(way, own.tangent);
-    if (!(behind > rounding)) continue;
+    if (!(behind > rounding)) return;
     const double past = std::max({0.0, -along_side, along_side - own.length});
     least = std::min(least, (behind * behind + past * past) / (2 * behind));
-  }
+  });
   return least;
 }
 
@@ -220,25 +260,15 @@ void join_coincident(Corners& corners, std::size_t count, double depth) {
 void add_strips(Model& model, std::uint32_t index) {
   Body& body = model.bodies[index];
   CoverRanges& ranges = model.ranges(body);
-  Fragments fragments(ranges);
-  for (std::size_t e = model.elements.size(); e > 0 && model.element_body[e - 1] == index; --e)
-    fragments.add(model.elements[e - 1]);
-  std::vector<std::size_t> fragment;
-  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
-    fragment.push_back(fragments.of(model.sides[side].start.carrier.patch[0]));
+  const SidesNear sides_near(model, index);
   std::vector<double> depths;
   for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side) {
     const double wanted = depth_share * model.side_size[side];
     std::vector<std::uint32_t> competitors;
     find_competitors(model, side, wanted, true, competitors);
     find_competitors(model, side, wanted, false, competitors);
-    std::vector<char> near(ranges.side_end - ranges.side_begin, 0);
-    const std::size_t own = fragment[side - ranges.side_begin];
-    std::ranges::transform(fragment, near.begin(), [&](std::size_t other) { return other != own ? 1 : 0; });
-    near[side - ranges.side_begin] = near[model.next_side[side] - ranges.side_begin] = 1;
-    near[model.previous_side[side] - ranges.side_begin] = 1;
-    for (const std::uint32_t competitor : competitors) near[competitor - ranges.side_begin] = 1;
-    const double depth = std::min(wanted, safe_share * equal_depth(model, body, side, wanted, near));
+    const double depth =
+        std::min(wanted, safe_share * equal_depth(model, side, wanted, sides_near, competitors));
     depths.push_back(depth);
     const std::size_t corners = 4 + competitors.size();
     for (std::size_t c = 0; c < corners; ++c) {
@@ -254,7 +284,7 @@ void add_strips(Model& model, std::uint32_t index) {
     model.is_strip.push_back(1);
     model.strips.push_back({side, depth, static_cast<std::uint32_t>(model.competitors.size()),
                             static_cast<std::uint32_t>(model.competitors.size() + competitors.size()),
-                            static_cast<std::uint32_t>(own)});
+                            sides_near.fragment_of(side)});
     model.piece_strip.push_back(static_cast<std::uint32_t>(model.strips.size() - 1));
     model.competitors.insert(model.competitors.end(), competitors.begin(), competitors.end());
   }

@@ -1,6 +1,6 @@
 #include "picture/scene_picture.hpp"
 
-#include "blocks/geos.hpp"
+#include "geometry/geos.hpp"
 #include "geometry/outlines.hpp"
 #include "picture/palette.hpp"
 #include "picture/section.hpp"

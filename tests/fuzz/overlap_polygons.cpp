@@ -1,8 +1,8 @@
 #include "targets.hpp"
 
-#include "blocks/geos.hpp"
 #include "conformance/boundary_arrays.hpp"
 #include "geometry/convex_pieces.hpp"
+#include "geometry/geos.hpp"
 #include "geometry/triangulate.hpp"
 #include "given_polygon.hpp"
 

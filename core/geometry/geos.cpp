@@ -1,4 +1,4 @@
-#include "blocks/geos.hpp"
+#include "geometry/geos.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "blocks/segment_tree.hpp"
+#include "geometry/segment_tree.hpp"
 
 #include <numeric>
 
