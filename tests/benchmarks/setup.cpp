@@ -33,8 +33,7 @@ double time_of(const Work& work) {
 }
 
 /// The whole is timed; parts of it are timed once more by themselves, so they do not add up to it.
-void measure(benchmark::State& state, const std::string& generator) {
-  const std::string text = generated(generator);
+void measure(benchmark::State& state, const std::string& text) {
   double reading = 0, overlaps = 0, model = 0, construction = 0;
   double bodies = 0;
   for (auto iteration : state) {
@@ -60,15 +59,30 @@ void measure(benchmark::State& state, const std::string& generator) {
   state.counters["model_s"] = each(model);
 }
 
+/// A body under a lattice with far more boundary than it has within: its teeth are as wide as an element.
+std::string comb(int teeth) {
+  std::string corners = fmt::format("[0, -1], [{}, -1]", 0.1 * teeth);
+  for (int i = teeth - 1; i >= 0; --i)
+    corners += fmt::format(", [{}, {}], [{}, 0]", 0.1 * i + 0.03, 3 + 0.001 * i, 0.1 * i);
+  return fmt::format(R"({{"talus": 1,
+    "materials": {{"rock": {{"density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.25}}}},
+    "cover": {{"model": "hexagonal", "size": 0.05}},
+    "bodies": [{{"name": "comb", "material": "rock", "polygon": [{}]}}], "time": {{"end": 1e-6}}}})",
+                     corners);
+}
+
 }  // namespace
 
 void register_setups() {
+  benchmark::RegisterBenchmark("setup/comb/400", [](benchmark::State& state) { measure(state, comb(400)); })
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
   for (const char* shape : {"rectangle", "jittered"}) {
     for (const int blocks : {5000, 50000, 500000}) {
       benchmark::RegisterBenchmark(
           fmt::format("{}setup/pile/{}/{}", blocks > 5000 ? large : "", blocks, shape).c_str(),
           [generator = fmt::format("pile.py --blocks {} --shape {}", blocks, shape)](
-              benchmark::State& state) { measure(state, generator); })
+              benchmark::State& state) { measure(state, generated(generator)); })
           ->Iterations(1)
           ->Unit(benchmark::kMillisecond);
     }
