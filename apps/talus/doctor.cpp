@@ -56,6 +56,8 @@ nlohmann::ordered_json tell_end(const std::filesystem::path& folder) {
     if (std::filesystem::exists(folder / of_many))
       throw InputError(fmt::format("'{}' holds several runs: name the folder of one in it", folder.string()));
   }
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+    throw InputError(fmt::format("'{}' is no folder of results", folder.string()));
   if (!std::filesystem::exists(folder / "run.json") && std::filesystem::exists(checkpoint_file(folder)))
     throw InputError(fmt::format(
         "'{}' holds a run that was broken off before it could be recorded: `talus resume {}` goes "

@@ -299,6 +299,9 @@ TEST_CASE("doctor says which step was the first bad one and what to change", "[a
   CHECK(good.code == 0);
   CHECK_THAT(good.out, Contains("finished at t = ") && Contains("the energy balance misses"));
   CHECK(call_talus(scratch.folder(), {"doctor", "nowhere"}).code == 5);
+  const Call of_file = call_talus(scratch.folder(), {"doctor", "good/run.json"});
+  CHECK(of_file.code == 2);
+  CHECK_THAT(of_file.err, Contains("'good/run.json' is no folder of results"));
   for (const char* record : {"{\"end\": \"stopped\"}", "{\"end\": 3}", "[", "[]"}) {
     CAPTURE(record);
     scratch.write("good/run.json", record);
