@@ -29,6 +29,14 @@ double contraction_of(const Tensor& p, const Tensor& q) {
   return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
 }
 
+Tensor difference_of(const Tensor& p, const Tensor& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2], p[3] - q[3]};
+}
+
+Tensor mean_of(const Tensor& p, const Tensor& q) {
+  return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2, (p[3] + q[3]) / 2};
+}
+
 Response DrivenElement::to(const Tensor& f, double dt) {
   Response response{};
   MaterialBatch batch{};
@@ -37,6 +45,7 @@ Response DrivenElement::to(const Tensor& f, double dt) {
     batch.deformation[k] = &f[k];
     batch.previous_deformation[k] = &f_[k];
     output.stress[k] = &response.stress[k];
+    output.viscous_stress[k] = &response.viscous_stress[k];
   }
   std::vector<double> next(state_.size());
   batch.state = state_.data();
@@ -44,15 +53,18 @@ Response DrivenElement::to(const Tensor& f, double dt) {
   batch.count = 1;
   output.energy = &response.energy;
   output.dissipated = &response.dissipated;
-  output.viscous = &response.viscous;
   output.state = next.data();
   law_->evaluate(batch, output);
-  for (std::size_t k = 0; k < 4; ++k) work_ += (stress_[k] + response.stress[k]) / 2 * (f[k] - f_[k]);
+  if (!(law_->viscous_time() > 0)) response.viscous_stress = {};  // it may be left alone
+  const Tensor moved = difference_of(f, f_);
+  response.viscous = contraction_of(response.viscous_stress, moved);
+  work_ += contraction_of(mean_of(stress_, response.stress), moved);
+  viscous_ += contraction_of(mean_of(viscous_stress_, response.viscous_stress), moved);
   dissipated_ += response.dissipated;
-  viscous_ += response.viscous;
   state_ = next;
   f_ = f;
   stress_ = response.stress;
+  viscous_stress_ = response.viscous_stress;
   return response;
 }
 

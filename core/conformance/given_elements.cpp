@@ -8,7 +8,8 @@ namespace talus::conformance {
 GivenElements::GivenElements(const Material& law, std::span<const Tensor> path)
     : state((path.size() - 1) * law.doubles_per_element()),
       count(static_cast<std::uint32_t>(path.size() - 1)),
-      doubles_per_element(law.doubles_per_element()) {
+      doubles_per_element(law.doubles_per_element()),
+      viscous(law.viscous_time() > 0) {
   DrivenElement element(law);
   for (std::size_t k = 0; k < 4; ++k) deformation[k].resize(count, 0), previous[k].resize(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -47,29 +48,32 @@ bool GivenElements::differs_from(const GivenElements& other) const {
 TakenResponse::TakenResponse(const GivenElements& elements, unsigned char value)
     : energy(elements.count, value),
       dissipated(elements.count, value),
-      viscous(elements.count, value),
       state(std::size_t{elements.count} * elements.doubles_per_element, value) {
-  for (Guarded<double>& one : stress) {
-    one.resize(elements.count, value);
-    one.surround(value);
+  for (auto* four : {&stress, &viscous_stress}) {
+    for (Guarded<double>& one : *four) {
+      one.resize(elements.count, value);
+      one.surround(value);
+    }
   }
-  for (Guarded<double>* one : {&energy, &dissipated, &viscous, &state}) one->surround(value);
+  for (Guarded<double>* one : {&energy, &dissipated, &state}) one->surround(value);
 }
 
 MaterialResponse TakenResponse::view(const GivenElements& elements, std::uint32_t first) {
   MaterialResponse response{};
-  for (std::size_t k = 0; k < 4; ++k) response.stress[k] = stress[k].data() + first;
+  for (std::size_t k = 0; k < 4; ++k) {
+    response.stress[k] = stress[k].data() + first;
+    response.viscous_stress[k] = viscous_stress[k].data() + first;
+  }
   response.energy = energy.data() + first;
   response.dissipated = dissipated.data() + first;
-  response.viscous = viscous.data() + first;
   response.state = state.data() + std::size_t{first} * elements.doubles_per_element;
   return response;
 }
 
 bool TakenResponse::surrounded_by(unsigned char value) const {
   const auto within = [&](const Guarded<double>& one) { return one.surrounded_by(value); };
-  return std::ranges::all_of(stress, within) && within(energy) && within(dissipated) && within(viscous) &&
-         within(state);
+  return std::ranges::all_of(stress, within) && std::ranges::all_of(viscous_stress, within) &&
+         within(energy) && within(dissipated) && within(state);
 }
 
 }  // namespace talus::conformance

@@ -13,6 +13,7 @@ struct GivenElements {
   Guarded<double> deformation[4], previous[4], state;
   double dt = 1e-3;
   std::uint32_t count = 0, doubles_per_element = 0;
+  bool viscous = false;
 
   /// Each element has been led to its place of the path alone, one step short of it.
   GivenElements(const Material& law, std::span<const Tensor> path);
@@ -24,7 +25,7 @@ struct GivenElements {
 
 /// All that a material fills in.
 struct TakenResponse {
-  Guarded<double> stress[4], energy, dissipated, viscous, state;
+  Guarded<double> stress[4], viscous_stress[4], energy, dissipated, state;
 
   TakenResponse(const GivenElements& elements, unsigned char value);
   MaterialResponse view(const GivenElements& elements, std::uint32_t first);

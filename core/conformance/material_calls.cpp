@@ -28,7 +28,8 @@ std::optional<std::string> difference_of_elements(const GivenElements& elements,
     for (std::size_t k = 0; k < 4; ++k) compare("stress", i, p.stress[k][i], q.stress[k][i]);
     compare("energy", i, p.energy[i], q.energy[i]);
     compare("dissipated", i, p.dissipated[i], q.dissipated[i]);
-    compare("viscous", i, p.viscous[i], q.viscous[i]);
+    for (std::size_t k = 0; k < 4 && elements.viscous; ++k)
+      compare("viscous stress", i, p.viscous_stress[k][i], q.viscous_stress[k][i]);
     for (std::uint32_t k = 0; k < elements.doubles_per_element; ++k) {
       const std::size_t at = std::size_t{i} * elements.doubles_per_element + k;
       compare("state", i, p.state[at], q.state[at]);
@@ -67,7 +68,7 @@ void check_material_restore(const Subject& subject, Trial& trial) {
   for (std::size_t i = 100; i < 200; ++i) responses.push_back(element.to(path[i]));
   for (std::size_t i = 100; i < 200; ++i) {
     const Response again = copy.to(path[i]), &due = responses[i - 100];
-    const bool same_losses = again.dissipated == due.dissipated && again.viscous == due.viscous;
+    const bool same_losses = again.dissipated == due.dissipated && again.viscous_stress == due.viscous_stress;
     trial.due(again.stress == due.stress && again.energy == due.energy && same_losses,
               fmt::format("another response in step {}", i), "the same bits");
   }
@@ -206,7 +207,7 @@ std::span<const Check> material_checks() {
       {"parameters", "declared defaults make a material; other values make one or are refused in words",
        check_parameters},
       {"power", "stress power is energy stored or dissipated; nothing is dissipated below zero", check_power},
-      {"losses", "work of viscous stress is a part of what is dissipated, and nothing in slow motion",
+      {"losses", "viscous stress takes energy, and there is none at rest and nothing of it in slow motion",
        check_viscous_loss},
       {"objectivity", "rotation makes no stress and turns what there is; no moment", check_objectivity},
       {"potential", "P = ∂W/∂F", check_stress_potential},

@@ -197,6 +197,23 @@ void chain_force(const TriangleChain& chain, const double* const p[4]) {
   with(chain.beside != 0, [&](auto beside) { force_of_chain<beside>(chain, p); });
 }
 
+void work_of_step(std::uint32_t count, const double* const p[4], const double* const f[4],
+                  double* const former_p[4], double* const former_f[4], double* work) {
+  const auto some = [&](std::uint32_t i, auto row) __attribute__((always_inline)) {
+    Pack twice[4];
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const Pack stress = row.load(p[k] + i), place = row.load(f[k] + i);
+      twice[k] = (row.load(former_p[k] + i) + stress) * (place - row.load(former_f[k] + i));
+      row.store(stress, former_p[k] + i);
+      row.store(place, former_f[k] + i);
+    }
+    row.store(row.load(work + i) + 0.5 * ((twice[0] + twice[1]) + (twice[2] + twice[3])), work + i);
+  };
+  std::uint32_t i = 0;
+  for (; i + width <= count; i += width) some(i, Whole{});
+  if (i < count) some(i, First{count - i});
+}
+
 double sum(std::uint32_t count, const double* value) {
   Sum total;
   in_lanes(count, [&](std::uint32_t k, std::uint32_t i, auto row) {
@@ -312,7 +329,8 @@ void accelerate(std::uint32_t count, const VelocityUpdate& how, bool same_mass, 
 }  // namespace
 
 extern const ElementKernels element_kernels;
-const ElementKernels element_kernels{move, lattice_gradient, lattice_force, chain_gradient, chain_force,
-                                     sum,  chain_sum,        accelerate};
+const ElementKernels element_kernels{move,        lattice_gradient, lattice_force, chain_gradient,
+                                     chain_force, work_of_step,     sum,           chain_sum,
+                                     accelerate};
 
 }  // namespace talus::kernels::TALUS_KERNEL_LEVEL

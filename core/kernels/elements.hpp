@@ -60,6 +60,11 @@ struct ElementKernels {
   void (*chain_gradient)(const TriangleChain& chain, double* const f[4]);
   void (*chain_force)(const TriangleChain& chain, const double* const p[4]);
 
+  /// Adds ½ (P' + P) : (F − F') to `work` [element], where P' and F' are of a step ago, and puts P and F in
+  /// their place.
+  void (*work_of_step)(std::uint32_t count, const double* const p[4], const double* const f[4],
+                       double* const former_p[4], double* const former_f[4], double* work);
+
   /// Σ value, and Σ area value of the triangles of a chain.
   double (*sum)(std::uint32_t count, const double* value);
   double (*chain_sum)(const TriangleChain& chain, const double* value);

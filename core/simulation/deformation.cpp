@@ -26,8 +26,7 @@ bool wants_all_sums(const StepConditions& c) {
 }
 
 Deformation::Energy sum_of(const Deformation::Energy& p, const Deformation::Energy& q) {
-  return {p.stored + q.stored, p.dissipated + q.dissipated, p.viscous + q.viscous,
-          p.inside_out || q.inside_out};
+  return {p.stored + q.stored, p.dissipated + q.dissipated, p.inside_out || q.inside_out};
 }
 
 }  // namespace
@@ -166,7 +165,7 @@ Deformation::Energy Deformation::energy_of_sweeps(const Model& model) const {
   Energy total;
   for (std::size_t s = 0; s < model.partition.subdomains.size(); ++s) {
     const SweepSums& sums = sums_[s];
-    total = sum_of(total, {sums.stored, sums.dissipated, sums.viscous, sums.inside_out});
+    total = sum_of(total, {sums.stored, sums.dissipated, sums.inside_out});
   }
   return total;
 }
@@ -197,7 +196,6 @@ Deformation::Energy Deformation::apply_to(const Model& model, const Blocks& bloc
     sum.stored += area * buffer.energy[i];
     if (!energies_.empty()) energies_[blocks.element + i] = area * buffer.energy[i];
     sum.dissipated += area * buffer.dissipated[i];
-    sum.viscous += area * buffer.viscous[i];
     Matrix2& moment = motion.forces[model.element_body[blocks.element + i]].moment;
     moment.xx -= area * buffer.stress[0][i];
     moment.xy -= area * buffer.stress[1][i];

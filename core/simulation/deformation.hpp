@@ -22,7 +22,6 @@ class Deformation {
   struct Energy {
     double stored = 0;        ///< J/m
     double dissipated = 0;    ///< J/m since t_{n-1}
-    double viscous = 0;       ///< J/m, of it work of viscous stress
     bool inside_out = false;  ///< the area of an element became negative; looked for where stress is kept
   };
   /// f_int (Eq. 18): adds −A P ∇w to the forces of the patches, −A P to the moments of affine blocks. Own

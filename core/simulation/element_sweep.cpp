@@ -179,12 +179,10 @@ void ElementSweep::run(const Model& model, const Body& body, std::uint32_t begin
                                force.y + bottom, force.x + top, force.y + top);
         sum.stored += lattice.area * kernels_.sum(chunk.count, w.elements.energy);
         sum.dissipated += lattice.area * kernels_.sum(chunk.count, w.elements.dissipated);
-        sum.viscous += lattice.area * kernels_.sum(chunk.count, w.elements.viscous);
       } else {
         kernels_.chain_force(chain, p.data());
         sum.stored += kernels_.chain_sum(chain, w.elements.energy);
         sum.dissipated += kernels_.chain_sum(chain, w.elements.dissipated);
-        sum.viscous += kernels_.chain_sum(chain, w.elements.viscous);
       }
       for (; left < chunk.run_done; ++left) leave(partition.runs[left], sum);
       for (; slot_left < chunk.slot_done; ++slot_left)

@@ -24,7 +24,7 @@ struct SweepStep {
 
 /// Energies of the elements, J/m, and sums over the own patches where they were updated.
 struct SweepSums {
-  double stored = 0, dissipated = 0, viscous = 0;
+  double stored = 0, dissipated = 0;
   bool inside_out = false;  ///< an element is, seen where SweepStep::keep
   kernels::VelocitySums own{};
 };

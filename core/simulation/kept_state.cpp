@@ -112,7 +112,6 @@ void Simulation::State::exchange_books(Archive& archive) {
   archive(contact_totals);
   archive(strain_energy.stored);
   archive(strain_energy.dissipated);
-  archive(strain_energy.viscous);
   archive(deepest_pair.first);
   archive(deepest_pair.second);
   archive(summary.steps);

@@ -13,7 +13,7 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
   l.strain = strain.stored;
   l.contact = contact.stored + loads.stored();
   const Losses last = since_last_;
-  since_last_ = {contact.slip_loss, contact.damping_loss, strain.dissipated, strain.viscous};
+  since_last_ = {contact.slip_loss, contact.damping_loss, strain.dissipated};
   if (!started_) {
     // What was lost or done before t = 0 is no business of this ledger.
     initial_ = stored();
@@ -32,10 +32,6 @@ void LedgerKeeper::book(const ContactTotals& contact, const Deformation::Energy&
     l.contact_damping_loss += since_last_.contact_damping - former.contact_damping;
     l.global_damping_loss += work.damping_loss + damping_ahead_;
     l.material_loss += since_last_.material - former.material;
-    // A viscous stress of t_n works half behind and half ahead of it, where the material books it over the
-    // whole step behind. What that of t_{n−1} takes is the geometric mean of both, where rates are alike.
-    l.material_loss -=
-        (since_last_.viscous - std::sqrt(std::max(0.0, since_last_.viscous * last.viscous))) / 2;
     l.external_work +=
         occasion.stage_begins ? stored() + lost() - before : work.external_work + work_ahead_ + loads.work();
   }

@@ -52,7 +52,7 @@ class LedgerKeeper {
 
   EnergyLedger ledger_;
   struct Losses {
-    double friction = 0, contact_damping = 0, material = 0, viscous = 0;
+    double friction = 0, contact_damping = 0, material = 0;
   } since_last_;        ///< J/m, in the step behind, as last booked
   double initial_ = 0;  ///< J/m, kinetic and stored at t = 0
   double damping_ahead_ = 0, work_ahead_ = 0;

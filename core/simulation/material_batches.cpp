@@ -35,8 +35,26 @@ void poison([[maybe_unused]] ElementBuffer& buffer, [[maybe_unused]] std::uint32
 #ifdef TALUS_AUDIT
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (auto& component : buffer.stress) std::fill(component, component + count, nan);
-  for (double* one : {buffer.energy, buffer.dissipated, buffer.viscous}) std::fill(one, one + count, nan);
+  for (auto& component : buffer.viscous_stress) std::fill(component, component + count, nan);
+  for (double* one : {buffer.energy, buffer.dissipated}) std::fill(one, one + count, nan);
 #endif
+}
+
+/// All of it but `state`.
+MaterialResponse response_in(ElementBuffer& buffer) {
+  MaterialResponse output{};
+  for (int k = 0; k < 4; ++k) {
+    output.stress[k] = buffer.stress[k];
+    output.viscous_stress[k] = buffer.viscous_stress[k];
+  }
+  output.energy = buffer.energy;
+  output.dissipated = buffer.dissipated;
+  return output;
+}
+
+std::array<double*, 4> from(std::vector<double> (&components)[4], std::size_t first) {
+  return {components[0].data() + first, components[1].data() + first, components[2].data() + first,
+          components[3].data() + first};
 }
 
 /// σ = P Fᵀ / det F.
@@ -59,7 +77,8 @@ bool ElementBuffer::any_inside_out(std::uint32_t count) const {
   return any;
 }
 
-MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
+MaterialBatches::MaterialBatches(const Scene& scene, const Model& model)
+    : kernels_(kernels::element_kernels(scene.simd)) {
   bool remembers = false;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const std::uint32_t begin = model.material_element_start[m], end = model.material_element_start[m + 1];
@@ -68,14 +87,23 @@ MaterialBatches::MaterialBatches(const Scene& scene, const Model& model) {
     auto material = make<Material>(*choice.component, choice.values);
     refuse_unsound(*material, *choice.component);
     const std::size_t states = std::size_t{end - begin} * material->doubles_per_element();
-    const bool needs_previous = material->needs_previous_deformation();
+    const bool viscous = material->viscous_time() > 0;
+    const bool needs_previous = viscous || material->needs_previous_deformation();
     const bool sweeps = material->sweeps() && states == 0 && !needs_previous;
     remembers = remembers || states > 0 || needs_previous;
     const Material* const sweeping = sweeps ? material.get() : nullptr;
-    Batch& batch = batches_.emplace_back(
-        Batch{std::move(material), begin, end, needs_previous, sweeping, std::vector<double>(states), {}});
+    Batch& batch = batches_.emplace_back(Batch{std::move(material),
+                                               begin,
+                                               end,
+                                               needs_previous,
+                                               viscous,
+                                               sweeping,
+                                               std::vector<double>(states),
+                                               {},
+                                               {}});
     for (int k = 0; k < 4 && needs_previous; ++k)
       batch.deformation[k].assign(end - begin, k == 0 || k == 3 ? 1.0 : 0.0);
+    for (int k = 0; k < 4 && viscous; ++k) batch.viscous_stress[k].resize(end - begin);
   }
   if (remembers) cauchy_.resize(model.element_body.size());
 }
@@ -94,23 +122,26 @@ void MaterialBatches::evaluate(std::uint32_t index, std::uint32_t element, std::
   if (buffer.state.size() < doubles * ElementBuffer::most) buffer.state.resize(doubles * ElementBuffer::most);
   poison(buffer, count);
   MaterialBatch input{};
-  MaterialResponse output{};
   for (int k = 0; k < 4; ++k) {
     input.deformation[k] = buffer.deformation[k];
     input.previous_deformation[k] =
         batch.needs_previous ? batch.deformation[k].data() + first : buffer.deformation[k];
-    output.stress[k] = buffer.stress[k];
   }
   input.state = state;
   input.dt = dt;
   input.count = count;
-  output.energy = buffer.energy;
-  output.dissipated = buffer.dissipated;
-  output.viscous = buffer.viscous;
+  MaterialResponse output = response_in(buffer);
   output.state = buffer.state.data();
   batch.material->evaluate(input, output);
+  if (batch.viscous) {
+    // ½ (P_v,{n-1} + P_v,n) : (F_n − F_{n-1}), as central differences have it (Eqs. 22–24): the stress of t_n
+    // acts on half of the step behind and half of the one ahead, in which a fast mode may turn over.
+    kernels_.work_of_step(count, output.viscous_stress, input.deformation,
+                          from(batch.viscous_stress, first).data(), from(batch.deformation, first).data(),
+                          buffer.dissipated);
+  }
   std::copy(buffer.state.data(), buffer.state.data() + doubles * count, state);
-  for (int k = 0; k < 4 && batch.needs_previous; ++k)
+  for (int k = 0; k < 4 && batch.needs_previous && !batch.viscous; ++k)
     std::copy(buffer.deformation[k], buffer.deformation[k] + count, batch.deformation[k].data() + first);
   for (std::uint32_t i = 0; i < count && keep && keeps_stress(); ++i)
     cauchy_[element + i] = cauchy_of(buffer, i);
@@ -130,17 +161,10 @@ void MaterialBatches::cauchy(std::uint32_t element, std::span<const Matrix2> gra
     buffer.deformation[2][i] = h.yx, buffer.deformation[3][i] = 1 + h.yy;
   }
   MaterialBatch input{};
-  MaterialResponse output{};
-  for (int k = 0; k < 4; ++k) {
-    input.deformation[k] = input.previous_deformation[k] = buffer.deformation[k];
-    output.stress[k] = buffer.stress[k];
-  }
+  for (int k = 0; k < 4; ++k) input.deformation[k] = input.previous_deformation[k] = buffer.deformation[k];
   input.dt = 1;  // what it does to a material without memory
   input.count = static_cast<std::uint32_t>(gradients.size());
-  output.energy = buffer.energy;
-  output.dissipated = buffer.dissipated;
-  output.viscous = buffer.viscous;
-  batches_[batch_of(element)].material->evaluate(input, output);
+  batches_[batch_of(element)].material->evaluate(input, response_in(buffer));
   for (std::uint32_t i = 0; i < gradients.size(); ++i) stress[i] = cauchy_of(buffer, i);
 }
 
@@ -148,6 +172,7 @@ void MaterialBatches::exchange(Archive& archive) {
   for (Batch& batch : batches_) {
     archive.of_known_size(batch.state);
     for (std::vector<double>& component : batch.deformation) archive.of_known_size(component);
+    for (std::vector<double>& component : batch.viscous_stress) archive.of_known_size(component);
   }
   archive.of_known_size(cauchy_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "archive/archive.hpp"
+#include "kernels/level.hpp"
 #include "model/model.hpp"
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
@@ -17,17 +18,18 @@ namespace talus {
 struct ElementBuffer {
   static constexpr std::uint32_t most = 256;  ///< elements
 
-  double deformation[4][most], stress[4][most];          ///< xx, xy, yx, yy; F, and P in Pa
-  double energy[most], dissipated[most], viscous[most];  ///< J/m³
-  std::vector<double> state;                             ///< of t_n, [element * doubles_per_element]
+  double deformation[4][most], stress[4][most];  ///< xx, xy, yx, yy; F, and P in Pa
+  double viscous_stress[4][most];                ///< Pa, of P
+  double energy[most], dissipated[most];         ///< J/m³, the latter with the work of viscous stress
+  std::vector<double> state;                     ///< of t_n, [element * doubles_per_element]
 
   /// Whether det F is not above 0, or no number, in any of the first `count` elements.
   bool any_inside_out(std::uint32_t count) const;
 };
 
 /// The materials of the elements that deform, and what is kept of each element from step to step: the states
-/// of its material, the deformation where its material asks for it, and stress for output where it does not
-/// follow from how an element is deformed.
+/// of its material, the deformation where its material asks for it, viscous stress where there is any, and
+/// stress for output where it does not follow from how an element is deformed.
 class MaterialBatches {
  public:
   MaterialBatches(const Scene& scene, const Model& model);
@@ -63,12 +65,14 @@ class MaterialBatches {
   struct Batch {
     Made<Material> material;
     std::uint32_t begin, end;  ///< elements
-    bool needs_previous;
+    bool needs_previous, viscous;
     const Material* sweeping;
     std::vector<double> state;
-    std::vector<double> deformation[4];  ///< of t_n, if needs_previous
+    std::vector<double> deformation[4];     ///< of t_n, if needs_previous
+    std::vector<double> viscous_stress[4];  ///< Pa, of t_n, if viscous
   };
 
+  const kernels::ElementKernels& kernels_;
   std::vector<Batch> batches_;
   /// [element] as cauchy() says it; empty where no material has a memory.
   std::vector<std::array<double, 3>> cauchy_;

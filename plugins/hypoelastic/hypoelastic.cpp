@@ -31,6 +31,7 @@ class Hypoelastic final : public Material {
   void evaluate(const MaterialBatch& batch, const MaterialResponse& response) const noexcept override {
     const double viscosity = batch.dt > 0 ? damping_time_ / batch.dt : 0;
     const PlaneModuli moduli = moduli_;
+    const bool viscous_stress = damping_time_ > 0;
     const MaterialBatch in = batch;
     const MaterialResponse out = response;
     // No branch within, and the arrays are apart: the loop becomes one over vectors.
@@ -47,13 +48,10 @@ class Hypoelastic final : public Material {
       const PlaneTensor viscous = viscosity * change;
       const double work = old[3] + stress_work(stress_before, before, stress, now);
 
-      const TwoPointTensor p = first_piola(stress + viscous, now);
-      out.stress[0][i] = p.xx;
-      out.stress[1][i] = p.xy;
-      out.stress[2][i] = p.yx;
-      out.stress[3][i] = p.yy;
+      write(first_piola(stress + viscous, now), out.stress, i);
+      if (viscous_stress) write(first_piola(viscous, now), out.viscous_stress, i);
       out.energy[i] = work;
-      out.dissipated[i] = out.viscous[i] = determinant(now) * contraction(viscous, step.strain);
+      out.dissipated[i] = 0;
       double* state = out.state + std::size_t{4} * i;
       state[0] = stress.xx;
       state[1] = stress.yy;

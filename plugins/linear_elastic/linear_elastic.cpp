@@ -4,6 +4,7 @@
 #include <talus/library.hpp>
 #include <talus/plane_tensor.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -106,6 +107,8 @@ class LinearElastic final : public Material {
       respond<true>(batch, response);
     } else {
       respond<false>(batch, response);
+      for (double* component : response.viscous_stress)
+        if (damping_time_ > 0) std::fill_n(component, batch.count, 0.0);
     }
   }
 
@@ -133,32 +136,34 @@ class LinearElastic final : public Material {
                  *gyx = batch.previous_deformation[2], *gyy = batch.previous_deformation[3];
     double *pxx = response.stress[0], *pxy = response.stress[1], *pyx = response.stress[2],
            *pyy = response.stress[3];
-    double* __restrict energy = response.energy, * __restrict dissipated = response.dissipated,
-           * __restrict viscous_loss = response.viscous;
+    double *vxx = response.viscous_stress[0], *vxy = response.viscous_stress[1],
+           *vyx = response.viscous_stress[2], *vyy = response.viscous_stress[3];
+    double* __restrict energy = response.energy, * __restrict dissipated = response.dissipated;
     const PlaneModuli moduli = moduli_;
     const double viscosity = damped ? damping_time_ / batch.dt : 0;
     const std::uint32_t count = batch.count;
 #pragma GCC ivdep
     for (std::uint32_t i = 0; i < count; ++i) {
       const PolarStrain polar = polar_strain({fxx[i], fxy[i], fyx[i], fyy[i]});
-      PlaneTensor stress = moduli * polar.strain;
+      const PlaneTensor stress = moduli * polar.strain;
       energy[i] = contraction(stress, polar.strain) / 2;
-      dissipated[i] = viscous_loss[i] = 0;
-      double couple = 0;
+      dissipated[i] = 0;
+      TwoPointTensor p = turned(polar.rotation, stress, 0);
       if (damped) {
         const PlaneTensor change = polar.strain - polar_strain({gxx[i], gxy[i], gyx[i], gyy[i]}).strain;
         const PlaneTensor viscous = viscosity * (moduli * change);
-        stress = stress + viscous;
-        couple = balancing_couple(viscous, polar);
-        dissipated[i] = viscous_loss[i] = contraction(viscous, change);
+        const TwoPointTensor v = turned(polar.rotation, viscous, balancing_couple(viscous, polar));
+        vxx[i] = v.xx, vxy[i] = v.xy, vyx[i] = v.yx, vyy[i] = v.yy;
+        p = {p.xx + v.xx, p.xy + v.xy, p.yx + v.yx, p.yy + v.yy};
       }
-      const double c = polar.rotation.cosine, s = polar.rotation.sine;
-      const double xy = stress.xy - couple, yx = stress.xy + couple;
-      pxx[i] = c * stress.xx - s * yx;
-      pxy[i] = c * xy - s * stress.yy;
-      pyx[i] = s * stress.xx + c * yx;
-      pyy[i] = s * xy + c * stress.yy;
+      pxx[i] = p.xx, pxy[i] = p.xy, pyx[i] = p.yx, pyy[i] = p.yy;
     }
+  }
+
+  /// R (σ̂ + w J), J the quarter turn.
+  static TwoPointTensor turned(const PlaneRotation& r, const PlaneTensor& stress, double couple) {
+    const double xy = stress.xy - couple, yx = stress.xy + couple, c = r.cosine, s = r.sine;
+    return {c * stress.xx - s * yx, c * xy - s * stress.yy, s * stress.xx + c * yx, s * xy + c * stress.yy};
   }
 
   /// The skew part that makes T U symmetric. The elastic stress has the axes of U and needs none; without it

@@ -128,14 +128,10 @@ class MohrCoulomb final : public Material {
       }
       next.energy += stress_work(old.stress.plane, before, next.stress.plane, now) - lost;
 
-      const TwoPointTensor p = first_piola(next.stress.plane + viscous, now);
-      response.stress[0][i] = p.xx;
-      response.stress[1][i] = p.xy;
-      response.stress[2][i] = p.yx;
-      response.stress[3][i] = p.yy;
+      write(first_piola(next.stress.plane + viscous, now), response.stress, i);
+      if (damping_time_ > 0) write(first_piola(viscous, now), response.viscous_stress, i);
       response.energy[i] = next.energy;
-      response.viscous[i] = volume * contraction(viscous, step.strain);
-      response.dissipated[i] = lost + response.viscous[i];
+      response.dissipated[i] = lost;
       next.write(response.state + std::size_t{State::size} * i);
     }
   }

@@ -175,6 +175,29 @@ double total(const double* l) {
 
 }  // namespace
 
+TEST_CASE("work of a step is the mean stress times the change, which then are those of a step ago",
+          "[kernels]") {
+  const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
+  Random random;
+  for (const std::uint32_t count : {0u, 1u, 5u, 8u, 9u, 255u}) {
+    const Tensors p(count, &random), f(count, &random);
+    Tensors former_p(count, &random), former_f(count, &random);
+    std::vector<double> work = random.numbers(count), due = work;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < 4; ++k)
+        due[i] += (former_p.component[k][i] + p.component[k][i]) / 2 *
+                  (f.component[k][i] - former_f.component[k][i]);
+    }
+    loops.work_of_step(count, p.rows.data(), f.rows.data(), former_p.rows.data(), former_f.rows.data(),
+                       work.data());
+    for (std::uint32_t i = 0; i < count; ++i) CHECK(work[i] == Approx(due[i]).margin(1e-15));
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(former_p.component[k] == p.component[k]);
+      CHECK(former_f.component[k] == f.component[k]);
+    }
+  }
+}
+
 TEST_CASE("sums go to eight lanes, whatever the number of values", "[kernels]") {
   const ElementKernels& loops = element_kernels(GENERATE(from_range(levels())));
   Random random;

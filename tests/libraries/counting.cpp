@@ -44,7 +44,7 @@ class CountingMaterial : public talus::Material {
     talus_test_asked.elements += batch.count;
     for (std::uint32_t i = 0; i < batch.count; ++i) {
       for (double* stress : response.stress) stress[i] = 0;
-      response.energy[i] = response.dissipated[i] = response.viscous[i] = 0;
+      response.energy[i] = response.dissipated[i] = 0;
     }
   }
   void stiffest_tangent(double tangent[9]) const noexcept override {

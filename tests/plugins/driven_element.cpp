@@ -30,7 +30,7 @@ void check_restart(const Material& law, std::span<const Tensor> path) {
     REQUIRE(one.stress == two.stress);
     REQUIRE(one.energy == two.energy);
     REQUIRE(one.dissipated == two.dissipated);
-    REQUIRE(one.viscous == two.viscous);
+    REQUIRE(one.viscous_stress == two.viscous_stress);
   }
   REQUIRE(element.state() == other.state());
 
@@ -39,13 +39,13 @@ void check_restart(const Material& law, std::span<const Tensor> path) {
   const Response first = element.to(path.back(), 0);
   CHECK(first.energy == last.energy);
   CHECK(first.dissipated == 0);
+  CHECK(first.viscous_stress == Tensor{});
 }
 
 void check_batch(const Material& law, std::span<const Tensor> path) {
   const std::size_t count = path.size() / 2, states = law.doubles_per_element();
   std::vector<DrivenElement> alone(count, DrivenElement(law));
-  std::vector<double> before[4], now[4], stress[4], energy(count), dissipated(count, 1.0),
-      viscous(count, 1.0);
+  std::vector<double> before[4], now[4], stress[4], viscous[4], energy(count), dissipated(count, 1.0);
   std::vector<double> state(count * states), next(count * states);
   MaterialBatch batch{};
   MaterialResponse output{};
@@ -62,13 +62,14 @@ void check_batch(const Material& law, std::span<const Tensor> path) {
     batch.deformation[k] = now[k].data();
     batch.previous_deformation[k] = before[k].data();
     output.stress[k] = stress[k].data();
+    viscous[k].resize(count);
+    output.viscous_stress[k] = viscous[k].data();
   }
   batch.state = state.data();
   batch.dt = 1e-3;
   batch.count = static_cast<std::uint32_t>(count);
   output.energy = energy.data();
   output.dissipated = dissipated.data();
-  output.viscous = viscous.data();
   output.state = next.data();
   law.evaluate(batch, output);
   for (std::size_t i = 0; i < count; ++i) {
@@ -76,7 +77,7 @@ void check_batch(const Material& law, std::span<const Tensor> path) {
     for (std::size_t k = 0; k < 4; ++k) REQUIRE(stress[k][i] == expected.stress[k]);
     REQUIRE(energy[i] == expected.energy);
     REQUIRE(dissipated[i] == expected.dissipated);
-    REQUIRE(viscous[i] == expected.viscous);
+    for (std::size_t k = 0; k < 4; ++k) REQUIRE(viscous[k][i] == expected.viscous_stress[k]);
     REQUIRE(std::equal(alone[i].state().begin(), alone[i].state().end(), next.data() + i * states));
   }
 }
@@ -128,10 +129,8 @@ void check_spin_is_free(const Material& law, const Material& elastic, const Tens
     const Tensor f = product(rotation(0.05 * i), deformed);
     const Response viscous = element.to(f), plain = twin.to(f);
     for (std::size_t k = 0; k < 4; ++k) REQUIRE(viscous.stress[k] == Approx(plain.stress[k]).margin(margin));
-    const double lost = viscous.dissipated - plain.dissipated;
-    REQUIRE(viscous.viscous == Approx(lost).margin(1e-15 * margin));
-    REQUIRE(lost >= 0);
-    REQUIRE(lost < 1e-15 * margin);  // the square of a strain that is round-off
+    REQUIRE(viscous.dissipated == plain.dissipated);
+    REQUIRE(size_of(viscous.viscous_stress) < margin);
   }
 }
 

@@ -104,6 +104,7 @@ TEST_CASE("below yield a Mohr–Coulomb body is the hypoelastic one, bit by bit"
     for (const Tensor& f : lively_path(0.01, 500)) {
       const Response found = element.to(f), expected = twin.to(f);
       REQUIRE(found.stress == expected.stress);
+      REQUIRE(found.viscous_stress == expected.viscous_stress);
       REQUIRE(found.energy == expected.energy);
       REQUIRE(found.dissipated == expected.dissipated);
     }

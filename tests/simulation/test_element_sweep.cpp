@@ -65,11 +65,15 @@ struct PlainResponse {
 PlainResponse plain_response(const Material& material, const Matrix2& h) {
   PlainResponse r{{1 + h.xx, h.xy, h.yx, 1 + h.yy}, {}, 0};
   const double before[4] = {1, 0, 0, 1};
-  double dissipated = 0, viscous = 0;
+  double viscous[4], dissipated = 0;
   std::vector<double> state(material.doubles_per_element()), next(state);
   MaterialBatch batch{
       {r.f, r.f + 1, r.f + 2, r.f + 3}, {before, before + 1, before + 2, before + 3}, state.data(), 1e-6, 1};
-  material.evaluate(batch, {{r.p, r.p + 1, r.p + 2, r.p + 3}, &r.energy, &dissipated, &viscous, next.data()});
+  material.evaluate(batch, {{r.p, r.p + 1, r.p + 2, r.p + 3},
+                            {viscous, viscous + 1, viscous + 2, viscous + 3},
+                            &r.energy,
+                            &dissipated,
+                            next.data()});
   return r;
 }
 

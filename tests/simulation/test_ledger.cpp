@@ -76,32 +76,29 @@ TEST_CASE("the balance holds where the stiffness changes at a corner of many ele
   }
 }
 
-TEST_CASE("the balance of a viscous body under a sudden load closes to second order in the step",
-          "[simulation][ledger]") {
-  const char *block = R"({"model": "block"})", *many = R"({"model": "hexagonal", "size": 0.5})";
-  for (const auto& [model, cover] : {std::pair{"linear_elastic", block},
-                                     {"linear_elastic", many},
-                                     {"hypoelastic", block},
-                                     {"hypoelastic", many},
-                                     {"mohr_coulomb", block},
-                                     {"mohr_coulomb", many}}) {
-    INFO(model << ", " << cover);
-    const auto largest_share = [model = model, cover = cover](double dt) {
+TEST_CASE("the balance of a viscous body under a sudden load closes", "[simulation][ledger]") {
+  // At the automatic step the fastest modes of a lattice turn over with each step, and what viscous stress
+  // does in the half step ahead has the other sign.
+  const char *short_step = R"(, "dt": 8e-6)", *automatic = "", *block = R"({"model": "block"})",
+             *many = R"({"model": "hexagonal", "size": 0.5})",
+             *fine = R"({"model": "hexagonal", "size": 0.21, "angle": 48.9, "slivers": "keep"})";
+  for (const char* model : {"linear_elastic", "hypoelastic", "mohr_coulomb"}) {
+    for (const auto& [cover, dt] :
+         {std::pair{block, short_step}, {many, short_step}, {block, automatic}, {fine, automatic}}) {
+      INFO(model << ", " << cover << dt);
       WorkingScene text;
       text.material = fmt::format(
-          R"("density": 2300, "model": "{}", "young_modulus": 1e10, "poisson_ratio": 0.25, "damping_time": 1e-3)",
+          R"("density": 2300, "model": "{}", "young_modulus": 1e10, "poisson_ratio": 0.25, "damping_time": 1e-4)",
           model);
       if (model == std::string("mohr_coulomb")) text.material += R"(, "friction_angle": 30, "cohesion": 1e7)";
-      text.bodies = box("base", -2, -1, 2, 0, R"("fixed": true)") + "," +
-                    box("a", 0, 0, 1, 1, R"("cover": )" + std::string(cover));
-      text.gravity = "[0, -9.81]";
-      text.time = fmt::format(R"({{"end": 0.02, "dt": {}}})", dt);
-      return run_to_end(text).summary().largest_residual_share;
-    };
-    const double coarse = largest_share(8e-6), fine = largest_share(4e-6);
-    CAPTURE(coarse, fine);
-    CHECK(coarse < 1e-4);
-    CHECK(fine < coarse / 3);
+      text.bodies = box("a", 0, 0, 1, 1, R"("cover": )" + std::string(cover));
+      text.rest =
+          R"("loads": [{"body": "a", "point": [1, 1], "force": [{"scale": 1e6, "time": [[0, 1], [2e-5, 0]]}, 0]}],)";
+      text.time = fmt::format(R"({{"end": 0.005{}}})", dt);
+      const Simulation simulation = run_to_end(text);
+      CHECK(simulation.ledger().material_loss > 0);
+      CHECK(simulation.summary().largest_residual_share < 1e-7);
+    }
   }
 }
 

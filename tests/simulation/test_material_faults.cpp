@@ -27,7 +27,6 @@ class FaultyMaterial final : public Material {
     for (double* stress : response.stress) std::fill_n(stress, batch.count, value(Fault::stress));
     std::fill_n(response.energy, batch.count, value(Fault::energy));
     std::fill_n(response.dissipated, batch.count, 0.0);
-    std::fill_n(response.viscous, batch.count, 0.0);
   }
   void stiffest_tangent(double tangent[9]) const noexcept override {
     for (int i = 0; i < 9; ++i) tangent[i] = i % 4 == 0 ? 1e9 : 0;

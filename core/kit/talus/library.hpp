@@ -16,7 +16,7 @@ namespace talus {
 inline constexpr std::uint32_t library_magic = 0x554C4154u;  // "TALU" in memory order
 
 /// Bumped when a layout, a meaning or a default changes: an old plugin is then refused, never misread.
-inline constexpr std::uint32_t abi_number = 18;
+inline constexpr std::uint32_t abi_number = 19;
 
 inline constexpr const char* unit_system = "SI: m kg s, radian, per metre of thickness";
 

@@ -16,10 +16,12 @@ struct MaterialBatch {
 };
 
 struct MaterialResponse {
-  double* stress[4];   ///< Pa, first Piola–Kirchhoff P (force per reference area), P_iJ as F_iJ
+  double* stress[4];  ///< Pa, first Piola–Kirchhoff P (force per reference area), P_iJ as F_iJ
+  /// Pa, of it what goes with the rate of strain. The host books its work, half on the step behind and half
+  /// on the one ahead. Left alone where viscous_time() is 0.
+  double* viscous_stress[4];
   double* energy;      ///< J/m³ of reference volume, recoverable
-  double* dissipated;  ///< J/m³ since t_{n-1}
-  double* viscous;     ///< J/m³, of it work of viscous stress: half of that stress acts on the step ahead
+  double* dissipated;  ///< J/m³ since t_{n-1}, besides the work of viscous stress
   double* state;       ///< of t_n; separate from MaterialBatch::state
 };
 
@@ -73,7 +75,7 @@ class Material {
   virtual void stiffest_tangent(double tangent[9]) const noexcept = 0;
 
   /// Viscous stress over elastic stress at a strain rate of 1 per second, the largest, s: stiffness-
-  /// proportional damping. For the time step.
+  /// proportional damping. For the time step. Above 0 the host keeps former deformation and viscous stress.
   virtual double viscous_time() const noexcept { return 0; }
 
   /// Whether evaluate() reads previous_deformation. A material that says no spares the host to keep it for

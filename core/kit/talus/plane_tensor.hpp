@@ -40,6 +40,14 @@ inline TwoPointTensor tensor_at(const double* const components[4], std::size_t i
   return {components[0][i], components[1][i], components[2][i], components[3][i]};
 }
 
+/// The other way.
+inline void write(const TwoPointTensor& tensor, double* const components[4], std::size_t i) {
+  components[0][i] = tensor.xx;
+  components[1][i] = tensor.xy;
+  components[2][i] = tensor.yx;
+  components[3][i] = tensor.yy;
+}
+
 constexpr double determinant(const TwoPointTensor& f) {
   return f.xx * f.yy - f.xy * f.yx;
 }

@@ -10,7 +10,8 @@ class DeniesViscosity final : public ViscousRock {
   using ViscousRock::ViscousRock;
 
  private:
-  double told_viscous(double /*loss*/) const override { return 0; }
+  double told_share() const override { return 0; }
+  double told_loss(double viscous) const override { return viscous; }
 };
 
 constexpr talus::Component components[] = {viscous_rock<DeniesViscosity>("denies_viscosity")};

@@ -39,7 +39,9 @@ class ElasticRock : public talus::Material {
       const double stored = talus::contraction(stress, strain) / 2;
       response.energy[i] = energy(stored);
       response.dissipated[i] = 0;
-      response.viscous[i] = viscous(stored);
+      if (viscous_time() > 0) {
+        for (int k = 0; k < 4; ++k) response.viscous_stress[k][i] = viscous(response.stress[k][i]);
+      }
     }
   }
 
@@ -48,7 +50,7 @@ class ElasticRock : public talus::Material {
  protected:
   virtual std::uint32_t count_of(const talus::MaterialBatch& batch) const { return batch.count; }
   virtual double energy(double stored) const { return stored; }
-  virtual double viscous(double /*stored*/) const { return 0; }
+  virtual double viscous(double /*stress*/) const { return 0; }
   virtual talus::PlaneRotation rotation_of(const talus::TwoPointTensor& f) const {
     const double trace = f.xx + f.yy, skew = f.yx - f.xy, size = std::hypot(trace, skew);
     return {trace / size, skew / size};

@@ -1,4 +1,4 @@
-// Tells half of what viscous stress takes.
+// Tells half of its viscous stress.
 #include "viscous_rock.hpp"
 
 namespace {
@@ -10,8 +10,7 @@ class LosesViscousWork final : public ViscousRock {
   using ViscousRock::ViscousRock;
 
  private:
-  double told_loss(double loss) const override { return loss / 2; }
-  double told_viscous(double loss) const override { return loss / 2; }
+  double told_share() const override { return 0.5; }
 };
 
 constexpr talus::Component components[] = {viscous_rock<LosesViscousWork>("loses_viscous_work")};

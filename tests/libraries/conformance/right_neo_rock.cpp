@@ -25,7 +25,6 @@ class RightNeoRock final : public ElasticRock {
       const double trace = f.xx * f.xx + f.xy * f.xy + f.yx * f.yx + f.yy * f.yy;
       response.energy[i] = shear_ / 2 * (trace - 2 - 2 * growth) + other_ / 2 * growth * growth;
       response.dissipated[i] = 0;
-      response.viscous[i] = 0;
     }
   }
 

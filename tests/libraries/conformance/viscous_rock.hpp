@@ -29,15 +29,10 @@ class ViscousRock : public talus::Material {
       const talus::PlaneTensor strain = green(f),
                                change = strain - green(talus::tensor_at(batch.previous_deformation, i));
       const talus::PlaneTensor elastic = moduli_ * strain, viscous = viscosity * (moduli_ * change);
-      const talus::PlaneTensor s = elastic + viscous;
-      response.stress[0][i] = f.xx * s.xx + f.xy * s.xy;
-      response.stress[1][i] = f.xx * s.xy + f.xy * s.yy;
-      response.stress[2][i] = f.yx * s.xx + f.yy * s.xy;
-      response.stress[3][i] = f.yx * s.xy + f.yy * s.yy;
+      talus::write(forward(f, elastic + viscous), response.stress, i);
+      talus::write(forward(f, told_share() * viscous), response.viscous_stress, i);
       response.energy[i] = talus::contraction(elastic, strain) / 2;
-      const double loss = talus::contraction(viscous, change);
-      response.dissipated[i] = told_loss(loss);
-      response.viscous[i] = told_viscous(loss);
+      response.dissipated[i] = told_loss(talus::contraction(viscous, change));
     }
   }
 
@@ -45,10 +40,15 @@ class ViscousRock : public talus::Material {
   double viscous_time() const noexcept override { return damping_time_; }
 
  protected:
-  virtual double told_loss(double loss) const { return loss; }
-  virtual double told_viscous(double loss) const { return loss; }
+  virtual double told_share() const { return 1; }  ///< of viscous stress
+  virtual double told_loss(double /*viscous*/) const { return 0; }
 
  private:
+  /// P = F S.
+  static talus::TwoPointTensor forward(const talus::TwoPointTensor& f, const talus::PlaneTensor& s) {
+    return {f.xx * s.xx + f.xy * s.xy, f.xx * s.xy + f.xy * s.yy, f.yx * s.xx + f.yy * s.xy,
+            f.yx * s.xy + f.yy * s.yy};
+  }
   static talus::PlaneTensor green(const talus::TwoPointTensor& f) {
     return {(f.xx * f.xx + f.yx * f.yx - 1) / 2, (f.xy * f.xy + f.yy * f.yy - 1) / 2,
             (f.xx * f.xy + f.yx * f.yy) / 2};

@@ -34,7 +34,7 @@ class MyComponent final : public talus::Material {
       response.stress[2][i] = f.yx * stress.xx + f.yy * stress.xy;
       response.stress[3][i] = f.yx * stress.xy + f.yy * stress.yy;
       response.energy[i] = energy;
-      response.dissipated[i] = response.viscous[i] = 0;
+      response.dissipated[i] = 0;
     }
   }
 
