@@ -113,6 +113,24 @@ TEST_CASE("between bodies of any covers the contact force is minus the gradient 
   }
 }
 
+TEST_CASE("a divided body that nothing loads rests on the faces of its cut", "[contact][strips]") {
+  for (const char* law : {"overlap_area", "vertex_edge", "feng_volume"}) {
+    INFO(law);
+    WorkingScene text;
+    text.law = law;
+    text.interface = R"("normal_stiffness": 6e8, "normal_damping": 0)";
+    if (law != std::string("feng_volume"))
+      text.interface += R"(, "tangential_stiffness": 1e8, "friction_angle": 20, "tangential_damping": 0)";
+    text.bodies = box("a", 0, 0, 4, 2,
+                      R"("cover": {"model": "hexagonal", "size": 0.4, "angle": 14.7, "offset_x": 0.03},
+                         "discontinuities": [{"points": [[-1, 1], [5, 1.1]]}])");
+    text.time = R"({"end": 2e-3})";
+    const Simulation simulation = run_to_end(text);
+    CHECK(simulation.ledger().kinetic < 1e-15);
+    CHECK(simulation.summary().largest_residual_share < 1e-9);
+  }
+}
+
 TEST_CASE("feng_volume finds one contact along a boundary of strips", "[contact][strips]") {
   const double whole = Pressed(corner_on_flat(block, block, "feng_volume")).at(-0.01, 0.1).force_b.x;
   const std::pair<const char*, const char*> covers[] = {{block, fine}, {coarse, fine}, {fine, coarse}};

@@ -36,6 +36,17 @@ TEST_CASE("feng_volume: a flat contact carries kappa sqrt(A) b and stores 2/3 ka
   }
 }
 
+TEST_CASE("feng_volume: a touch that is rounding bears nothing", "[laws][feng_volume]") {
+  for (const double depth : {1e-15, 3e-14, 9e-12}) {
+    const Evaluation e = level_block(lively_interface(), depth).look();
+    CHECK(e.on(1).y == 0);
+    CHECK(e.pairs[0].stored == 0);
+  }
+  constexpr double seen = 1.1e-11;
+  CHECK(level_block(lively_interface(), seen).look().on(1).y ==
+        Approx(kappa * std::sqrt(seen)).epsilon(1e-4));
+}
+
 TEST_CASE("feng_volume: the resultant goes along the normal of the chord, through its middle",
           "[laws][feng_volume]") {
   // A corner of 90 degrees, turned by 30, in a side: chord d (cot 30 + cot 60), area ½ d times that.
