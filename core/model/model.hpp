@@ -184,6 +184,11 @@ struct Model {
     }
   }
 
+  /// The corner where a side of a body of many elements starts, that of its strip.
+  std::uint32_t side_corner(const Body& body, std::uint32_t side) const {
+    return piece_start[body.piece_begin + side - ranges(body).side_begin];
+  }
+
   /// The first of a body's elements, where those of a covered body lie side by side.
   std::uint32_t first_element(const Body& body) const { return body_element[body.element_begin]; }
 

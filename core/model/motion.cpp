@@ -122,20 +122,8 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
   const Body& body = model.bodies[index];
   const CoverRanges& ranges = model.ranges(body);
   if (body.kinematics == Kinematics::covered) {
-    // A side ends where the next one starts.
-    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side) {
-      const auto corner_of = [&](std::uint32_t s) {
-        return model.piece_start[body.piece_begin + s - ranges.side_begin];
-      };
-      const MaterialPoint& point = model.sides[side].start;
-      const Vec2 moved = displacement(point), speed = velocity(point);
-      for (const std::uint32_t c : {corner_of(side), corner_of(model.previous_side[side]) + 1}) {
-        corners[c].x = point.reference.x + moved.x;
-        corners[c].y = point.reference.y + moved.y;
-        corners[c].vx = speed.x;
-        corners[c].vy = speed.y;
-      }
-    }
+    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
+      move_start(model, body, side);
     return;
   }
   const BodyMotion& motion = bodies[index];
@@ -147,6 +135,20 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
     corners[c].vx = speed.x;
     corners[c].vy = speed.y;
   }
+}
+
+Vec2 MotionState::move_start(const Model& model, const Body& body, std::uint32_t side) {
+  const MaterialPoint& point = model.sides[side].start;
+  const Vec2 moved = displacement(point), speed = velocity(point);
+  // A side ends where the next one starts.
+  for (const std::uint32_t c :
+       {model.side_corner(body, side), model.side_corner(body, model.previous_side[side]) + 1}) {
+    corners[c].x = point.reference.x + moved.x;
+    corners[c].y = point.reference.y + moved.y;
+    corners[c].vx = speed.x;
+    corners[c].vy = speed.y;
+  }
+  return speed;
 }
 
 void measure_sides(std::span<BoundaryCorner> ring) {

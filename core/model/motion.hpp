@@ -59,6 +59,8 @@ struct MotionState {
   /// Corners follow their moving body (Eq. 11): where they are and how fast, of a body of many elements the
   /// ends of its sides.
   void move_corners(const Model& model, std::size_t body);
+  /// The same of the corner where a side of a body of many elements starts. Returns its velocity.
+  Vec2 move_start(const Model& model, const Body& body, std::uint32_t side);
   /// Then what contact reads of a piece: the rest of a strip, tangents and lengths of sides.
   void shape_piece(const Model& model, std::uint32_t piece);
 

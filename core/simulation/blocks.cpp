@@ -11,6 +11,7 @@ namespace talus {
 namespace {
 
 constexpr std::size_t covered_at_once = 4, others_at_once = 64;
+constexpr std::uint32_t sides_at_once = 128;
 
 void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift) {
   const double squared = v.x * v.x + v.y * v.y, off_x = v.x - drift.x, off_y = v.y - drift.y;
@@ -23,17 +24,6 @@ kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& 
   model.visit_boundary(body, [&](std::uint32_t c) {
     add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
   });
-  return all;
-}
-
-/// The same of a body of many elements whose corners are left behind.
-kernels::SpeedExtremes speeds_of_sides(const Model& model, const MotionState& motion, const Body& body,
-                                       std::span<const kernels::CornerDrift> drift) {
-  const CoverRanges& ranges = model.ranges(body);
-  kernels::SpeedExtremes all;
-  for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; ++side)
-    add(all, motion.velocity(model.sides[side].start),
-        drift[model.piece_start[body.piece_begin + side - ranges.side_begin]]);
   return all;
 }
 
@@ -67,10 +57,23 @@ Blocks::Blocks(const Model& model, SimdLevel level, Workers& workers, bool bound
       if (body.piece_end == body.piece_begin + 1) block.corner_count = body.corner_end - body.corner_begin;
     }
     some_fixed_ = some_fixed_ || body.kinematics == Kinematics::fixed;
-    if (body.kinematics != Kinematics::fixed && block.corner_count == 0) others_.push_back(i);
+  }
+  list_others(model);
+  find_stretches();
+}
+
+void Blocks::list_others(const Model& model) {
+  for (const std::uint32_t body : moving_) {
+    if (blocks_[body].corner_count > 0) continue;
+    if (!model.covered(body)) {
+      others_.push_back({body, 0, 0});
+      continue;
+    }
+    const CoverRanges& ranges = model.ranges(model.bodies[body]);
+    for (std::uint32_t side = ranges.side_begin; side < ranges.side_end; side += sides_at_once)
+      others_.push_back({body, side, std::min(side + sides_at_once, ranges.side_end)});
   }
   other_speeds_.resize(others_.size());
-  find_stretches();
 }
 
 /// Chunks are those of all bodies, so that sums do not depend on what is fixed or sleeps.
@@ -169,13 +172,23 @@ MotionState::Speeds Blocks::follow(const Model& model, std::span<const kernels::
 }
 
 kernels::SpeedExtremes Blocks::follow_other(const Model& model, std::span<const kernels::CornerDrift> drift,
-                                            std::uint32_t body, MotionState& motion) const {
-  motion.forces[body] = {};
-  if (is_asleep(body)) return {};
-  if (!boundary_seen_ && model.covered(body))
-    return speeds_of_sides(model, motion, model.bodies[body], drift);
-  motion.move_corners(model, body);
-  return speeds_of_corners(model, motion, model.bodies[body], drift);
+                                            const Other& other, MotionState& motion) const {
+  const Body& body = model.bodies[other.body];
+  if (!model.covered(other.body)) {
+    motion.forces[other.body] = {};
+    if (is_asleep(other.body)) return {};
+    motion.move_corners(model, other.body);
+    return speeds_of_corners(model, motion, body, drift);
+  }
+  if (other.side_begin == model.ranges(body).side_begin) motion.forces[other.body] = {};
+  kernels::SpeedExtremes all;
+  if (is_asleep(other.body)) return all;
+  for (std::uint32_t side = other.side_begin; side < other.side_end; ++side) {
+    const Vec2 speed =
+        boundary_seen_ ? motion.move_start(model, body, side) : motion.velocity(model.sides[side].start);
+    add(all, speed, drift[model.side_corner(body, side)]);
+  }
+  return all;
 }
 
 /// Bodies [begin, end) of a chunk; of their motion at t_n the velocity is kept.

@@ -42,8 +42,13 @@ class Blocks {
     std::size_t begin, end;
   };
   void find_stretches();
+  /// A body whose boundary the kernels do not know, or some of the sides of one of many elements.
+  struct Other {
+    std::uint32_t body, side_begin, side_end;
+  };
+  void list_others(const Model& model);
   kernels::SpeedExtremes follow_other(const Model& model, std::span<const kernels::CornerDrift> drift,
-                                      std::uint32_t body, MotionState& motion) const;
+                                      const Other& other, MotionState& motion) const;
   void accelerate_and_keep(std::size_t begin, std::size_t end, const kernels::BlockUpdate& update,
                            MotionState& motion, kernels::BlockSums& sums) const;
   /// Calls `each` with the index of an entry of chunks_ and its stretches, in their order.
@@ -56,7 +61,7 @@ class Blocks {
   std::vector<kernels::Block> awake_;  ///< blocks_ as they are awake; empty while all are
   std::vector<std::uint32_t> asleep_;
   std::span<const std::uint32_t> moving_;          ///< bodies that are not fixed
-  std::vector<std::uint32_t> others_;              ///< moving bodies whose boundary the kernels do not know
+  std::vector<Other> others_;                      ///< of moving bodies
   std::vector<std::uint32_t> left_to_others_;      ///< all, before supports are told
   std::vector<std::uint32_t> with_scaled_strain_;  ///< see StrainMass
   std::vector<std::uint32_t> scaled_;              ///< the free ones of them
