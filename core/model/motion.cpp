@@ -35,15 +35,6 @@ Vec2 velocity(const BodyVelocity& m, Vec2 p) {
   return {m.velocity.x + m.rate.xx * p.x + m.rate.xy * p.y, m.velocity.y + m.rate.yx * p.x + m.rate.yy * p.y};
 }
 
-Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& values) {
-  Vec2 sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.x += carrier.weight[i] * values[carrier.patch[i]].x;
-    sum.y += carrier.weight[i] * values[carrier.patch[i]].y;
-  }
-  return sum;
-}
-
 void MotionState::exchange(Archive& archive) {
   archive.of_known_size(bodies);
   archive.of_known_size(patch_displacement);
@@ -139,7 +130,8 @@ void MotionState::move_corners(const Model& model, std::size_t index) {
 
 Vec2 MotionState::move_start(const Model& model, const Body& body, std::uint32_t side) {
   const MaterialPoint& point = model.sides[side].start;
-  const Vec2 moved = displacement(point), speed = velocity(point);
+  const Vec2 moved = carried(point.carrier, patch_displacement),
+             speed = carried(point.carrier, patch_velocity);
   // A side ends where the next one starts.
   for (const std::uint32_t c :
        {model.side_corner(body, side), model.side_corner(body, model.previous_side[side]) + 1}) {

@@ -109,7 +109,14 @@ inline Vec2 velocity(const BodyMotion& motion, Vec2 reference) {
 void measure_sides(std::span<BoundaryCorner> ring);
 
 /// Σ w_i d_i (Eq. 11).
-Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values);
+inline Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values) {
+  Vec2 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.x += carrier.weight[i] * patch_values[carrier.patch[i]].x;
+    sum.y += carrier.weight[i] * patch_values[carrier.patch[i]].y;
+  }
+  return sum;
+}
 
 /// Displacement gradient of an element of many, or of its rate: Σ d_i ⊗ ∇w_i.
 inline Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) {

@@ -13,14 +13,23 @@ namespace {
 constexpr std::size_t covered_at_once = 4, others_at_once = 64;
 constexpr std::uint32_t sides_at_once = 128;
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Of no corner, to add to.
+constexpr kernels::SpeedExtremes none{0, 0, infinite, -infinite, infinite, -infinite, 0, false};
+
 void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift) {
   const double squared = v.x * v.x + v.y * v.y, off_x = v.x - drift.x, off_y = v.y - drift.y;
-  all.add({squared, squared, v.x, v.x, v.y, v.y, off_x * off_x + off_y * off_y, true});
+  all.squared = std::max(all.squared, squared);
+  all.sum += squared;
+  all.low_x = std::min(all.low_x, v.x), all.high_x = std::max(all.high_x, v.x);
+  all.low_y = std::min(all.low_y, v.y), all.high_y = std::max(all.high_y, v.y);
+  all.stray_squared = std::max(all.stray_squared, off_x * off_x + off_y * off_y);
+  all.any = true;
 }
 
 kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& motion, const Body& body,
                                          std::span<const kernels::CornerDrift> drift) {
-  kernels::SpeedExtremes all;
+  kernels::SpeedExtremes all = none;
   model.visit_boundary(body, [&](std::uint32_t c) {
     add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
   });
@@ -181,11 +190,11 @@ kernels::SpeedExtremes Blocks::follow_other(const Model& model, std::span<const 
     return speeds_of_corners(model, motion, body, drift);
   }
   if (other.side_begin == model.ranges(body).side_begin) motion.forces[other.body] = {};
-  kernels::SpeedExtremes all;
-  if (is_asleep(other.body)) return all;
+  if (is_asleep(other.body)) return {};
+  kernels::SpeedExtremes all = none;
   for (std::uint32_t side = other.side_begin; side < other.side_end; ++side) {
-    const Vec2 speed =
-        boundary_seen_ ? motion.move_start(model, body, side) : motion.velocity(model.sides[side].start);
+    const Vec2 speed = boundary_seen_ ? motion.move_start(model, body, side)
+                                      : carried(model.sides[side].start.carrier, motion.patch_velocity);
     add(all, speed, drift[model.side_corner(body, side)]);
   }
   return all;

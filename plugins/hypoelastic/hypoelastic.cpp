@@ -29,12 +29,25 @@ class Hypoelastic final : public Material {
   std::uint32_t doubles_per_element() const noexcept override { return 4; }
 
   void evaluate(const MaterialBatch& batch, const MaterialResponse& response) const noexcept override {
-    const double viscosity = batch.dt > 0 ? damping_time_ / batch.dt : 0;
+    if (damping_time_ > 0) {
+      respond<true>(batch, response);
+    } else {
+      respond<false>(batch, response);
+    }
+  }
+
+  void stiffest_tangent(double tangent[9]) const noexcept override { write_tangent(moduli_, tangent); }
+
+  double viscous_time() const noexcept override { return damping_time_; }
+
+ private:
+  /// No branch within, and the arrays are apart: the loop becomes one over vectors.
+  template <bool damped>
+  void respond(const MaterialBatch& batch, const MaterialResponse& response) const noexcept {
+    const double viscosity = damped && batch.dt > 0 ? damping_time_ / batch.dt : 0;
     const PlaneModuli moduli = moduli_;
-    const bool viscous_stress = damping_time_ > 0;
     const MaterialBatch in = batch;
     const MaterialResponse out = response;
-    // No branch within, and the arrays are apart: the loop becomes one over vectors.
 #pragma GCC ivdep
     for (std::uint32_t i = 0; i < in.count; ++i) {
       const TwoPointTensor before = tensor_at(in.previous_deformation, i);
@@ -45,11 +58,15 @@ class Hypoelastic final : public Material {
       const MidpointStep step = midpoint_step(before, now);
       const PlaneTensor change = moduli * step.strain;
       const PlaneTensor stress = rotated(step.rotation, stress_before) + change;
-      const PlaneTensor viscous = viscosity * change;
       const double work = old[3] + stress_work(stress_before, before, stress, now);
 
-      write(first_piola(stress + viscous, now), out.stress, i);
-      if (viscous_stress) write(first_piola(viscous, now), out.viscous_stress, i);
+      PlaneTensor total = stress;
+      if (damped) {
+        const PlaneTensor viscous = viscosity * change;
+        total = total + viscous;
+        write(first_piola(viscous, now), out.viscous_stress, i);
+      }
+      write(first_piola(total, now), out.stress, i);
       out.energy[i] = work;
       out.dissipated[i] = 0;
       double* state = out.state + std::size_t{4} * i;
@@ -60,15 +77,6 @@ class Hypoelastic final : public Material {
     }
   }
 
-  void stiffest_tangent(double tangent[9]) const noexcept override {
-    write_tangent(moduli_, tangent);
-  }
-
-  double viscous_time() const noexcept override {
-    return damping_time_;
-  }
-
- private:
   PlaneModuli moduli_;
   double damping_time_;  ///< s
 };
