@@ -1,6 +1,6 @@
 #pragma once
 
-#include "corner_contacts.hpp"
+#include "corner_contact.hpp"
 #include "springs.hpp"
 
 #include <talus/contact_model.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "corner_contacts.hpp"
+#include "corner_contact.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,10 +1,11 @@
 // The contact law of DDA: penalty springs between a vertex and an edge. See README.md beside.
 
 #include "acting_corner.hpp"
-#include "corner_contacts.hpp"
+#include "corner_finder.hpp"
 #include "reflex_corners.hpp"
 #include "springs.hpp"
 #include "strip_ends.hpp"
+#include "tributary.hpp"
 
 #include <talus/library.hpp>
 
