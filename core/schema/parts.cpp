@@ -1,9 +1,9 @@
 #include "schema/parts.hpp"
 
 #include "scene/components.hpp"
-#include "scene/parameter_text.hpp"
 #include "scene/quantity.hpp"
 #include "scene/tables.hpp"
+#include "schema/keys.hpp"
 #include "schema/shapes.hpp"
 
 #include <fmt/format.h>
@@ -14,120 +14,6 @@ namespace talus {
 namespace {
 
 using table::of;
-
-Key number_key(const Parameter& parameter) {
-  return {parameter.key,         parameter.unit,     default_text(parameter),
-          range_text(parameter), parameter.sentence, shape::value(parameter)};
-}
-
-Key whole_key(const Parameter& parameter) {
-  Key key = number_key(parameter);
-  key.range = "whole, " + key.range;
-  key.schema = shape::whole(parameter);
-  return key;
-}
-
-std::vector<Key> number_keys(std::span<const Parameter> parameters) {
-  std::vector<Key> keys;
-  for (const Parameter& parameter : parameters) keys.push_back(number_key(parameter));
-  return keys;
-}
-
-/// [x, y] of the parameter.
-Key pair_key(const Parameter& parameter) {
-  Key key = number_key(parameter);
-  key.range = "[x, y]";
-  if (has_plain_default(parameter)) key.default_text = fmt::format("[{0}, {0}]", parameter.default_value);
-  key.schema = shape::pair(key.schema);
-  return key;
-}
-
-Key function_key(const Parameter& parameter) {
-  Key key = number_key(parameter);
-  key.range = "function";
-  key.schema = shape::function(parameter, true);
-  return key;
-}
-
-enum class Axes { both, may_be_free };
-
-/// [x, y], each a function.
-Key functions_key(const Parameter& parameter, Axes axes, bool of_place = true) {
-  Key key = pair_key(parameter);
-  const OrderedJson each = shape::function(parameter, of_place);
-  key.range = fmt::format("[x, y], functions{}", of_place ? "" : " of time");
-  if (axes == Axes::may_be_free) key.range += " or null";
-  key.schema = shape::pair(axes == Axes::both ? each : shape::either(each, {{"type", "null"}}));
-  return key;
-}
-
-/// A number, or one of these words.
-Key worded_key(const Parameter& parameter, const std::vector<std::string>& words) {
-  Key key = number_key(parameter);
-  key.schema = shape::either(key.schema, shape::one_of(words));
-  for (const std::string& word : words) key.range += fmt::format(", \"{}\"", word);
-  return key;
-}
-
-/// A number whose default the program finds by itself.
-Key number_key_or(const Parameter& parameter, const char* default_in_words) {
-  Key key = number_key(parameter);
-  key.default_text = default_in_words;
-  return key;
-}
-
-Key body_key(const char* sentence) {
-  return {"body", "", "required", "name", sentence, shape::text()};
-}
-
-Key surface_key() {
-  return {"surface", "", "required", "name", "A surface of that body.", shape::text()};
-}
-
-Key name_key(const char* sentence) {
-  return {"name", "", "required", "unique", sentence, shape::name()};
-}
-
-Key line_surface_key() {
-  return {"surface",
-          "",
-          "not set",
-          "name",
-          "Surface that both faces belong to, for interfaces and loads; without it they take part by the "
-          "body's material.",
-          shape::name()};
-}
-
-Key list_key(const char* name, const char* sentence, const char* definition, std::size_t fewest = 0) {
-  return {name, "", "[]", "list", sentence, shape::list(shape::reference(definition), fewest)};
-}
-
-Key object_key(const char* name, const char* default_in_words, const char* sentence, const char* definition) {
-  return {name, "", default_in_words, "object", sentence, shape::reference(definition)};
-}
-
-OrderedJson any_of(const std::vector<std::string>& keys) {
-  OrderedJson one = OrderedJson::array();
-  for (const std::string& key : keys) one.push_back(shape::required({key}));
-  return {{"anyOf", one}};
-}
-
-/// That list with something in it.
-OrderedJson some_of(const char* key) {
-  OrderedJson condition = shape::required({key});
-  condition["properties"][key]["minItems"] = 1;
-  return condition;
-}
-
-OrderedJson if_then(const OrderedJson& condition, const OrderedJson& consequence) {
-  return {{"if", condition}, {"then", consequence}};
-}
-
-OrderedJson forbidden(const std::vector<std::string>& keys) {
-  OrderedJson properties = OrderedJson::object();
-  for (const std::string& key : keys) properties[key] = false;
-  return {{"properties", properties}};
-}
 
 Part world() {
   const OrderedJson materials{{"type", "object"},
@@ -168,7 +54,7 @@ Part world() {
       object_key("limits", "{}", "When a run is stopped.", "limits"),
       list_key("tolerances", "How far compared runs may part.", "tolerance"),
   };
-  part.conditions = {{"anyOf", OrderedJson::array({some_of("bodies"), some_of("blocks")})}};
+  part.conditions = {{"anyOf", OrderedJson::array({shape::some_of("bodies"), shape::some_of("blocks")})}};
   return part;
 }
 
@@ -231,7 +117,8 @@ OrderedJson nothing_held_where_fixed(const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
     consequence["properties"][key] = {{"maxItems", 0}, {"maxProperties", 0}};
   consequence["properties"]["self_contact"] = {{"const", false}};
-  return if_then({{"properties", {{"fixed", {{"const", true}}}}}, {"required", {"fixed"}}}, consequence);
+  return shape::if_then({{"properties", {{"fixed", {{"const", true}}}}}, {"required", {"fixed"}}},
+                        consequence);
 }
 
 Part body() {
@@ -250,7 +137,8 @@ Part body() {
        list_key("discontinuities", "Polylines along which the body is cut.", "polyline")});
   const std::vector<Key> shared = shared_keys();
   part.keys.insert(part.keys.end(), shared.begin(), shared.end());
-  OrderedJson shaped = if_then(shape::required({"mesh"}), forbidden({"polygon", "holes", "surfaces"}));
+  OrderedJson shaped =
+      shape::if_then(shape::required({"mesh"}), shape::forbidden({"polygon", "holes", "surfaces"}));
   shaped["else"] = shape::required({"polygon"});
   part.conditions = {{"allOf", {shaped, nothing_held_where_fixed({"fix", "drive", "discontinuities"})}}};
   return part;
@@ -297,8 +185,8 @@ Part joint_set() {
   part.keys.push_back(line_surface_key());
   const OrderedJson broken{{"properties", {{"persistence", {{"exclusiveMaximum", 1}}}}},
                            {"required", {"persistence"}}};
-  part.conditions = if_then(broken, shape::required({"gap"}));
-  part.conditions["else"] = forbidden({"gap"});
+  part.conditions = shape::if_then(broken, shape::required({"gap"}));
+  part.conditions["else"] = shape::forbidden({"gap"});
   return part;
 }
 
@@ -335,7 +223,7 @@ Part surface_load() {
           {body_key("A body that moves."), surface_key(),
            functions_key(of(table::surface_load, "traction"), Axes::both),
            function_key(of(table::surface_load, "pressure"))},
-          any_of({"traction", "pressure"})};
+          shape::any_of({"traction", "pressure"})};
 }
 
 Part prescribed() {
@@ -345,7 +233,7 @@ Part prescribed() {
            number_key(of(table::prescribed, "ramp")),
            functions_key(of(table::prescribed, "displacement"), Axes::may_be_free),
            functions_key(of(table::prescribed, "velocity"), Axes::may_be_free)},
-          any_of({"displacement", "velocity"})};
+          shape::any_of({"displacement", "velocity"})};
 }
 
 Part absorbing() {
@@ -410,7 +298,7 @@ Part tolerance() {
             "tolerance",
             {{"monitor", "", "required", "name", "A monitor of the scene.", shape::text()},
              {"quantity", "", "required", "name", "One of its quantities.", shape::text()}},
-            any_of({"largest", "rms", "final"})};
+            shape::any_of({"largest", "rms", "final"})};
   for (Key& key : number_keys(table::tolerance)) {
     if (key.name != "against") key.unit = "that of the quantity";
     part.keys.push_back(std::move(key));

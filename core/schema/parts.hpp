@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/section.hpp"
+#include "schema/keys.hpp"
 
 #include <talus/library.hpp>
 
@@ -8,16 +8,6 @@
 #include <vector>
 
 namespace talus {
-
-/// A key of an object in a scene: what the reference says of it, and as JSON Schema what may stand there.
-struct Key {
-  std::string name, unit;
-  std::string default_text;  ///< as written in a scene, in words, or "required"
-  std::string range, sentence;
-  OrderedJson schema;
-
-  bool required() const { return default_text == "required"; }
-};
 
 /// An object of a scene with its keys. What a component declares of its own comes on top.
 struct Part {

@@ -102,4 +102,26 @@ OrderedJson required(const std::vector<std::string>& keys) {
   return {{"required", keys}};
 }
 
+OrderedJson any_of(const std::vector<std::string>& keys) {
+  OrderedJson one = OrderedJson::array();
+  for (const std::string& key : keys) one.push_back(required({key}));
+  return {{"anyOf", one}};
+}
+
+OrderedJson some_of(const char* key) {
+  OrderedJson condition = required({key});
+  condition["properties"][key]["minItems"] = 1;
+  return condition;
+}
+
+OrderedJson if_then(const OrderedJson& condition, const OrderedJson& consequence) {
+  return {{"if", condition}, {"then", consequence}};
+}
+
+OrderedJson forbidden(const std::vector<std::string>& keys) {
+  OrderedJson properties = OrderedJson::object();
+  for (const std::string& key : keys) properties[key] = false;
+  return {{"properties", properties}};
+}
+
 }  // namespace talus::shape

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "schema/parts.hpp"
+#include "scene/section.hpp"
+
+#include <talus/library.hpp>
 
 #include <string>
 
@@ -22,5 +24,11 @@ OrderedJson either(const OrderedJson& one, const OrderedJson& other);
 OrderedJson one_of(const std::vector<std::string>& words);
 OrderedJson reference(const std::string& definition);
 OrderedJson required(const std::vector<std::string>& keys);
+
+// What holds of several keys at once.
+OrderedJson any_of(const std::vector<std::string>& keys);  ///< one of them is there
+OrderedJson some_of(const char* key);                      ///< that list with something in it
+OrderedJson if_then(const OrderedJson& condition, const OrderedJson& consequence);
+OrderedJson forbidden(const std::vector<std::string>& keys);
 
 }  // namespace talus::shape
