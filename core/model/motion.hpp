@@ -2,6 +2,7 @@
 
 #include "archive/archive.hpp"
 #include "model/model.hpp"
+#include "model/patch_values.hpp"
 
 #include <talus/contact_model.hpp>
 
@@ -107,29 +108,6 @@ inline Vec2 velocity(const BodyMotion& motion, Vec2 reference) {
 
 /// Tangents and lengths of the sides of a ring from its corners.
 void measure_sides(std::span<BoundaryCorner> ring);
-
-/// Σ w_i d_i (Eq. 11).
-inline Vec2 carried(const Carrier& carrier, const std::vector<Vec2>& patch_values) {
-  Vec2 sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.x += carrier.weight[i] * patch_values[carrier.patch[i]].x;
-    sum.y += carrier.weight[i] * patch_values[carrier.patch[i]].y;
-  }
-  return sum;
-}
-
-/// Displacement gradient of an element of many, or of its rate: Σ d_i ⊗ ∇w_i.
-inline Matrix2 gradient(const Element& element, const std::vector<Vec2>& patch_values) {
-  Matrix2 h;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2 d = patch_values[element.patch[i]], g = element.gradient[i];
-    h.xx += d.x * g.x;
-    h.xy += d.x * g.y;
-    h.yx += d.y * g.x;
-    h.yy += d.y * g.y;
-  }
-  return h;
-}
 
 /// Of an element of any body that deforms.
 inline Matrix2 gradient_of_element(const Model& model, const MotionState& motion, std::uint32_t element) {

@@ -3,6 +3,7 @@
 #include "contact/contact_stage.hpp"
 #include "model/model.hpp"
 #include "scene/scene.hpp"
+#include "simulation/patch_mass.hpp"
 
 #include <vector>
 
@@ -57,8 +58,8 @@ BodyVote vote_as_a_whole(const Scene& scene, const Model& model, std::uint32_t b
                          const SpringsOfSides& springs, const Support& support, double factor);
 
 /// A body of many elements, by Lanczos iteration with the residual added: never below the true value but for
-/// rounding. `treated`: with what was done about slivers.
-BodyVote vote_of_patches(const Scene& scene, const Model& model, std::uint32_t body,
-                         const SpringsOfSides& springs, double factor, bool treated = true);
+/// rounding. `mass`: of the model.
+BodyVote vote_of_patches(const Scene& scene, const Model& model, const PatchMass& mass, std::uint32_t body,
+                         const SpringsOfSides& springs, double factor);
 
 }  // namespace talus

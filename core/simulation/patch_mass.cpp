@@ -8,10 +8,11 @@ namespace talus {
 namespace {
 
 /// Deviation of a patch from the affine continuation, rᵀ v.
-Vec2 deviation(const SteadyPatch& steady, std::span<const Vec2> values, std::uint32_t first) {
-  Vec2 sum = values[steady.patch - first];
+template <class Values>
+Vec2 deviation(const SteadyPatch& steady, const Values& values) {
+  Vec2 sum = values[steady.patch];
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2 other = values[steady.to.patch[i] - first];
+    const Vec2 other = values[steady.to.patch[i]];
     sum.x -= steady.to.weight[i] * other.x;
     sum.y -= steady.to.weight[i] * other.y;
   }
@@ -62,7 +63,7 @@ PatchMass::PatchMass(const Model& model) : core_inverse_(model.steady.empty() ? 
 }
 
 void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint32_t first,
-                              std::vector<Vec2>& patches) const {
+                              PatchValues patches) const {
   const Body& body = model.bodies[index];
   const CoverRanges& ranges = model.ranges(body);
   for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
@@ -82,8 +83,7 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
     static thread_local std::vector<Vec2> deviations;  // keeps its room: a step asks for no memory
     deviations.clear();
     for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
-      if (std::isfinite(model.steady[s].inertia))
-        deviations.push_back(deviation(model.steady[s], patches, 0));
+      if (std::isfinite(model.steady[s].inertia)) deviations.push_back(deviation(model.steady[s], patches));
     }
     const double* row = core.data();
     for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
@@ -105,7 +105,7 @@ void PatchMass::accelerations(const Model& model, std::uint32_t index, std::uint
   tie(model, index, patches);
 }
 
-void PatchMass::tie(const Model& model, std::uint32_t index, std::vector<Vec2>& patches) const {
+void PatchMass::tie(const Model& model, std::uint32_t index, PatchValues patches) {
   const Body& body = model.bodies[index];
   const CoverRanges& ranges = model.ranges(body);
   for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
@@ -133,7 +133,8 @@ double PatchMass::product(const Model& model, std::uint32_t index, std::uint32_t
   for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s) {
     const SteadyPatch& steady = model.steady[s];
     if (!std::isfinite(steady.inertia)) continue;
-    const Vec2 a = deviation(steady, p, first), b = deviation(steady, q, first);
+    const Vec2 a = deviation(steady, ConstPatchValues(p, first)),
+               b = deviation(steady, ConstPatchValues(q, first));
     sum += steady.inertia * (a.x * b.x + a.y * b.y);
   }
   return sum;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/model.hpp"
-#include "model/motion.hpp"
+#include "model/patch_values.hpp"
 
 #include <span>
 #include <vector>
@@ -16,16 +16,15 @@ class PatchMass {
  public:
   explicit PatchMass(const Model& model);
 
-  /// Turns the forces on the patches of a body, from `first` on, into accelerations, in place. `patches` are
-  /// those of all bodies; `first` is not beyond Body::free_end, from which on they have to do with slivers.
-  void accelerations(const Model& model, std::uint32_t body, std::uint32_t first,
-                     std::vector<Vec2>& patches) const;
-  void accelerations(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const {
+  /// Turns the forces on the patches of a body, from `first` on, into accelerations, in place. `first` is not
+  /// beyond Body::free_end, from which on they have to do with slivers.
+  void accelerations(const Model& model, std::uint32_t body, std::uint32_t first, PatchValues patches) const;
+  void accelerations(const Model& model, std::uint32_t body, PatchValues patches) const {
     accelerations(model, body, model.ranges(model.bodies[body]).patch_begin, patches);
   }
 
   /// Tied patches take over the values of those they follow.
-  void tie(const Model& model, std::uint32_t body, std::vector<Vec2>& patches) const;
+  static void tie(const Model& model, std::uint32_t body, PatchValues patches);
 
   /// pᵀ M q of two velocity fields on the patches of a body, J/m twice over. They hold that body's patches
   /// alone, from `first` on, which is not beyond Body::free_end.

@@ -101,7 +101,7 @@ void accelerate_patches(const Model& model, const PatchMass& mass, std::uint32_t
   static thread_local std::vector<Vec2> before;
   before.assign(after.begin(), after.end());
 
-  mass.accelerations(model, index, first, motion.patch_force);
+  mass.accelerations(model, index, first, {motion.patch_force, 0});
   Vec2 momentum{updated.sums.momentum[0], updated.sums.momentum[1]};
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 acceleration = motion.patch_force[first + i] + conditions.gravity;

@@ -82,7 +82,7 @@ double Relaxation::unbalanced(const Model& model, const PatchMass& mass, const M
     if (body.kinematics == Kinematics::fixed) continue;
     const Support& support = support_of(supports, b);
     if (body.kinematics == Kinematics::covered) {
-      mass.accelerations(model, b, acceleration);
+      mass.accelerations(model, b, {acceleration, 0});
       const std::span<Vec2> own(acceleration.data() + ranges.patch_begin,
                                 ranges.patch_end - ranges.patch_begin);
       for (Vec2& of_patch : own) of_patch += gravity;

@@ -187,7 +187,7 @@ struct Vote : BodyVote {
 };
 
 Vote vote_of(const Scene& scene, const StageSettings& settings, const Model& model,
-             const ContactStage& contacts, const Crowd& crowd, std::uint32_t body) {
+             const ContactStage& contacts, const PatchMass& mass, const Crowd& crowd, std::uint32_t body) {
   const Meetings met = crowd.met_by(body);
   const SpringsOfSides springs = springs_of(scene, settings, model, contacts, met, body);
   const double factor = contacts.law() != nullptr ? met.stiffness_factor : 1;
@@ -195,7 +195,7 @@ Vote vote_of(const Scene& scene, const StageSettings& settings, const Model& mod
       std::any_of(springs.begin(), springs.end(), [](const SideSprings& side) { return side.support > 0; });
   const bool contacts_alone = !model.covered(body) && !supported && contacts.law() != nullptr;
   if (model.covered(body))
-    return {vote_of_patches(scene, model, body, springs, factor), factor, contacts_alone};
+    return {vote_of_patches(scene, model, mass, body, springs, factor), factor, contacts_alone};
   const Support& support = support_of(settings.supports, body);
   return {vote_as_a_whole(scene, model, body, springs, support, factor), factor, contacts_alone};
 }
@@ -211,6 +211,7 @@ void give_back(std::vector<T>& values) {
 StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Model& model,
                    const ContactStage& contacts) {
   const Crowd crowd(model, settings.supports, scene.surfaces.size());
+  const PatchMass mass(model);
   heaviest_ = crowd.heaviest();
   // Bodies that vote differently, as far as they are compared.
   struct Different {
@@ -233,7 +234,7 @@ StepVote::StepVote(const Scene& scene, const StageSettings& settings, const Mode
     });
     Different here{i, {}, 0, {}};
     if (alike == different.end()) {
-      const Vote vote = vote_of(scene, settings, model, contacts, crowd, i);
+      const Vote vote = vote_of(scene, settings, model, contacts, mass, crowd, i);
       here.ballot = {vote.contacts_alone ? vote.elastic_lambda : vote.lambda,
                      vote.lambda,
                      vote.contacts_alone ? vote.gamma_alone : vote.gamma,
@@ -360,6 +361,10 @@ std::string limiter_of_automatic(const Scene& scene, const CriticalStep& step) {
 }
 
 std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model) {
+  Model untreated = model;
+  untreated.patch_mass = untreated.row_sum;
+  for (CoverRanges& ranges : untreated.cover_ranges) ranges.steady_end = ranges.steady_begin;
+  const PatchMass mass(model), mass_untreated(untreated);
   std::vector<SliverEffect> effects;
   for (std::uint32_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
@@ -368,8 +373,8 @@ std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model)
     std::size_t tied = 0;
     for (std::uint32_t s = ranges.steady_begin; s < ranges.steady_end; ++s)
       tied += std::isinf(model.steady[s].inertia) ? 1 : 0;
-    const BodyVote with = vote_of_patches(scene, model, i, {}, 1),
-                   without = vote_of_patches(scene, model, i, {}, 1, false);
+    const BodyVote with = vote_of_patches(scene, model, mass, i, {}, 1),
+                   without = vote_of_patches(scene, untreated, mass_untreated, i, {}, 1);
     effects.push_back({i, tied, ranges.steady_end - ranges.steady_begin - tied,
                        stable_step(with.lambda, with.gamma), stable_step(without.lambda, without.gamma)});
   }

@@ -71,12 +71,32 @@ std::string comb(int teeth) {
                      corners);
 }
 
+/// Rows of Voronoi cells of a metre, 25 to a row, of some 34 elements each.
+std::string zones(int rows) {
+  return fmt::format(R"({{"talus": 1,
+    "materials": {{"rock": {{"density": 2300, "model": "linear_elastic", "young_modulus": 1e10, "poisson_ratio": 0.25}}}},
+    "contact": {{"model": "overlap_area"}},
+    "interfaces": [{{"between": ["*", "*"], "friction_angle": 30, "normal_stiffness": 1e10,
+                     "tangential_stiffness": 1e10, "normal_damping": 0.2, "tangential_damping": 0.2}}],
+    "bodies": [],
+    "blocks": [{{"name": "cell", "domain": [[0, 0], [{0}, 0], [{0}, 25], [0, 25]], "material": "rock",
+                 "cover": {{"model": "hexagonal", "size": 0.3}}, "voronoi": {{"spacing": 1, "seed": 3}}}}],
+    "time": {{"end": 1e-6}}}})",
+                     rows);
+}
+
 }  // namespace
 
 void register_setups() {
   benchmark::RegisterBenchmark("setup/comb/400", [](benchmark::State& state) { measure(state, comb(400)); })
       ->Iterations(1)
       ->Unit(benchmark::kMillisecond);
+  for (const int rows : {40, 80}) {
+    benchmark::RegisterBenchmark(fmt::format("setup/zones/{}", rows).c_str(),
+                                 [rows](benchmark::State& state) { measure(state, zones(rows)); })
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+  }
   for (const char* shape : {"rectangle", "jittered"}) {
     for (const int blocks : {5000, 50000, 500000}) {
       benchmark::RegisterBenchmark(

@@ -35,7 +35,7 @@ TEST_CASE("a tied patch follows exactly and hands its force on", "[simulation][p
   const Model model = small_model(std::numeric_limits<double>::infinity());
   const PatchMass mass(model);
   std::vector<Vec2> field{{2, 0}, {3, 6}, {4, 8}, {1, 1}, {2, 4}};
-  mass.accelerations(model, 0, field);
+  mass.accelerations(model, 0, {field, 0});
   CHECK(field[0].x == (2 + 1.5 * 2) / 2.0);
   CHECK(field[1].x == (3 + 0.5 * 2) / 3.0);
   CHECK(field[2].y == (8 - 4) / 4.0);
@@ -49,7 +49,7 @@ TEST_CASE("added inertia is felt by the deviation alone", "[simulation][patch_ma
   const PatchMass mass(model);
   const std::vector<Vec2> force{{2, 1}, {3, -6}, {-4, 8}, {1, 1}, {5, -3}};
   std::vector<Vec2> acceleration = force;
-  mass.accelerations(model, 0, acceleration);
+  mass.accelerations(model, 0, {acceleration, 0});
   // (D + I r rᵀ) a = f, written out.
   const double r[5] = {-1.5, -0.5, 1, 0, 1};
   Vec2 along;
