@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 /// A file is this line, the length of the rest in decimal, a line of JSON without the state, the state, and
 /// the hash of all before it.
 constexpr std::string_view first_line = "talus checkpoint 1\n";
-constexpr int state_layout = 4;  ///< counted on when what is kept of a simulation is another
+constexpr int state_layout = 5;  ///< counted on when what is kept of a simulation is another
 constexpr std::size_t hash_digits = 32;
 
 Json header_of(const Checkpoint& checkpoint) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace talus {
@@ -11,6 +12,8 @@ namespace {
 /// Share of the mean width by which boxes are grown with the skin off: laws see a little further than bodies
 /// overlap, vertex_edge a hundredth of an edge.
 constexpr double sight = 0.02;
+/// Share of the mean width by which pieces may come nearer until their list is sifted again.
+constexpr double until_sifted = 0.01;
 
 constexpr std::size_t pieces_at_once = 64;
 
@@ -18,6 +21,29 @@ constexpr std::size_t pieces_at_once = 64;
 /// moves.
 bool shaped_by_piece(const Model& model, std::uint32_t body) {
   return model.moves(body) && !model.one_piece(model.bodies[body]);
+}
+
+/// Whether all of a piece is more than `margin` outside of a side of another. `offset` takes the other's
+/// frame to that of the piece.
+bool outside(const Model& model, const MotionState& motion, std::uint32_t piece, std::uint32_t other,
+             Vec2 offset, double margin) {
+  for (std::uint32_t side = model.piece_start[other]; side < model.piece_start[other + 1]; ++side) {
+    const BoundaryCorner& from = motion.corners[side];
+    bool beyond = from.length > 0;
+    for (std::uint32_t c = model.piece_start[piece]; beyond && c < model.piece_start[piece + 1]; ++c) {
+      const double x = motion.corners[c].x - offset.x - from.x, y = motion.corners[c].y - offset.y - from.y;
+      beyond = from.tangent_y * x - from.tangent_x * y > margin;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
+bool apart(const Model& model, const MotionState& motion, const BodyPair& pair, const PiecePair& pieces,
+           double margin) {
+  const Vec2 offset{pair.offset_x, pair.offset_y};
+  return outside(model, motion, pieces.a, pieces.b, offset, margin) ||
+         outside(model, motion, pieces.b, pieces.a, {-offset.x, -offset.y}, margin);
 }
 
 }  // namespace
@@ -31,8 +57,16 @@ bool ContactStage::find_pairs(const Model& model, MotionState& motion, double dt
   way_.strayed += 2 * dt * speeds.stray;
   way_.travelled += 2 * dt * speeds.closing();
   const bool due = !(slack_ > 0), every_step = !(skin_ > 0);
+  sifted_slack_ -= dt * speeds.closing();
   if (!due && !every_step) {
-    shape_listed(model, motion);
+    if (sifts_ && !(sifted_slack_ > 0)) {
+      shape_all(model, motion);
+      sift_pieces(model, motion);
+      list_to_shape(model);
+      share_anew(model);
+    } else {
+      shape_listed(model, motion);
+    }
     if (workers_.threads() > 1 && std::has_single_bit(++steps_shared_) &&
         worth_dividing_anew(pairs_, sharing_, workers_.threads(), batch_begin_, other_batches_))
       share_anew(model);
@@ -51,7 +85,7 @@ bool ContactStage::find_pairs(const Model& model, MotionState& motion, double dt
     search_.find(model, motion, sight * model.mean_width, candidates_);
     keep_touching(model);
   }
-  rebuild_pairs(model);
+  rebuild_pairs(model, motion);
   ++searches_;
   return due;
 }
@@ -78,9 +112,13 @@ void ContactStage::shape_listed(const Model& model, MotionState& motion) {
 
 void ContactStage::list_to_shape(const Model& model) {
   to_shape_.clear();
-  for (const PiecePair& pieces : piece_pairs_) {
-    for (const std::uint32_t piece : {pieces.a, pieces.b}) {
-      if (shaped_by_piece(model, model.piece_body[piece])) append_to(to_shape_, piece);
+  const PiecePairs all = piece_pairs();
+  for (const BodyPair& pair : pairs_) {
+    if (plain(pair.a, pair.b)) continue;
+    for (const PiecePair pieces : all.of(pair)) {
+      for (const std::uint32_t piece : {pieces.a, pieces.b}) {
+        if (shaped_by_piece(model, model.piece_body[piece])) append_to(to_shape_, piece);
+      }
     }
   }
   std::sort(to_shape_.begin(), to_shape_.end());
@@ -127,15 +165,16 @@ void ContactStage::note_neighbours(const Model& model) {
   }
 }
 
-void ContactStage::rebuild_pairs(const Model& model) {
+void ContactStage::rebuild_pairs(const Model& model, const MotionState& motion) {
   slots_.close_up(pairs_, batch_begin_);
   keep_former_pairs();
   pair_up_candidates(model);
-  list_to_shape(model);
   describe_plain_pairs(model);
   ask_again_.assign(pairs_.size(), 0);
   approach_.assign(pairs_.size(), 0);
   give_back_slots();
+  if (sifts_) sift_pieces(model, motion);
+  list_to_shape(model);
   lay_out_loads(model);
   lay_out_slots();
   if (!island_.empty()) hold_sleeping_pairs();
@@ -201,6 +240,31 @@ void ContactStage::give_back_slots() {
     pair.slot_start = former->slot_start;
     pair.slot_capacity = former->slot_capacity;
     pair.contact_count = former->contact_count;
+  }
+}
+
+/// Along a joint between two bodies of many elements a search, which serves for long, finds each side of the
+/// one near several of the other. Those that can meet before the list is sifted again come first, in their
+/// order, and laws see them alone; of a pair without any one stays, or all while it is in contact.
+void ContactStage::sift_pieces(const Model& model, const MotionState& motion) {
+  const double width = model.mean_width, margin = (sight + until_sifted) * width;
+  sifted_slack_ = until_sifted * width / 2;
+  auto end = static_cast<std::uint32_t>(piece_pairs_.size());
+  for (std::size_t i = pairs_.size(); i-- > 0;) {
+    BodyPair& pair = pairs_[i];
+    if (plain(pair.a, pair.b)) continue;
+    auto& [first, last] = pair.piece_pair_range;
+    const std::span<PiecePair> all = std::span(piece_pairs_).subspan(first, end - first);
+    std::ranges::sort(all, {}, [](const PiecePair& pieces) { return std::pair{pieces.a, pieces.b}; });
+    std::uint32_t near = 0;
+    for (PiecePair& pieces : all) {
+      if (!apart(model, motion, pair, pieces, margin)) std::swap(pieces, all[near++]);
+    }
+    const std::uint32_t least = pair.contact_count > 0 ? end - first : 1;
+    last = first + (near > 0 ? near : least);
+    end = first;
+    // How far apart a pair is was told of those that laws saw. One that sleeps is not asked about at all.
+    if (std::isfinite(ask_again_[i])) ask_again_[i] = 0;
   }
 }
 

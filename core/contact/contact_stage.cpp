@@ -92,6 +92,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       sharing_(model.mostly_covered() ? heavy_pairs : plain_pairs),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
+      sifts_(skin_ > 0 && model.mostly_covered()),
       workspaces_(static_cast<std::size_t>(workers.threads())),
       keeps_stored_(scene.sleep.has_value()),
       search_(model),

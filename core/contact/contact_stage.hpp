@@ -105,7 +105,7 @@ class ContactStage {
   void shape_all(const Model& model, MotionState& motion);
   void shape_listed(const Model& model, MotionState& motion);
   void list_to_shape(const Model& model);
-  void rebuild_pairs(const Model& model);
+  void rebuild_pairs(const Model& model, const MotionState& motion);
   void keep_former_pairs();
   void pair_up_candidates(const Model& model);
   BodyPair new_pair(const Model& model, std::uint32_t of_a, std::uint32_t of_b) const;
@@ -114,6 +114,7 @@ class ContactStage {
   kernels::Drift drift_of(const Model& model, const Body& body, const MotionState& motion);
   void drift_on(const Model& model, const MotionState& motion);
   void share_anew(const Model& model);
+  void sift_pieces(const Model& model, const MotionState& motion);
   void lay_out_loads(const Model& model);
   void describe_plain_pairs(const Model& model);
   bool plain(std::uint32_t a, std::uint32_t b) const {
@@ -204,9 +205,11 @@ class ContactStage {
   Workers& workers_;
   const kernels::ContactKernels& kernels_;
   PairSharing sharing_;
-  double near_;        ///< m, up to which bodies are neighbours
-  double skin_;        ///< m, the same, or 0 where pairs are sought anew in every step
-  double slack_ = -1;  ///< m left before neighbours are sought again; negative: at once
+  double near_;              ///< m, up to which bodies are neighbours
+  double skin_;              ///< m, the same, or 0 where pairs are sought anew in every step
+  double slack_ = -1;        ///< m left before neighbours are sought again; negative: at once
+  bool sifts_;               ///< whether sift_pieces() is worth its while
+  double sifted_slack_ = 0;  ///< m left before it is called again
   std::uint64_t searches_ = 0;
 
   std::vector<Workspace> workspaces_;  ///< [thread]
@@ -221,7 +224,7 @@ class ContactStage {
     std::uint32_t a, b, slot_start, slot_capacity, contact_count;
   };
   std::vector<FormerPair> former_pairs_;
-  std::vector<PiecePair> piece_pairs_;         ///< PiecePairs::listed
+  std::vector<PiecePair> piece_pairs_;         ///< PiecePairs::listed, and behind those of a pair what is far
   std::vector<std::uint32_t> to_shape_;        ///< pieces, of those that do not move whole with their bodies
   std::vector<std::uint32_t> batch_begin_{0};  ///< [batch + 1] pairs
   /// [batch, at least; or empty] what the law keeps of it; not where only some pairs are asked about again

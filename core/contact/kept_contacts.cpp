@@ -8,6 +8,7 @@ namespace talus {
 void ContactStage::exchange(Archive& archive, const Model& model) {
   if (!law_) return;
   archive(slack_);
+  archive(sifted_slack_);
   archive(way_);
   archive.of_known_size(corner_drift_);
   archive.of_known_size(drift_);
@@ -64,13 +65,19 @@ bool ContactStage::fits(const Model& model) const {
     if (pair.slot_start != contacts) return false;
     contacts += pair.contact_count;
     if (pair.a >= model.bodies.size() || pair.b >= model.bodies.size()) return false;
+  }
+  std::size_t listed_end = piece_pairs_.size();
+  for (std::size_t i = pairs; i-- > 0;) {
+    const BodyPair& pair = pairs_[i];
     if (plain(pair.a, pair.b)) continue;
     const auto [begin, end] = pair.piece_pair_range;
-    if (begin >= end || end > piece_pairs_.size()) return false;
+    if (begin >= end || end > listed_end) return false;
     const auto of_others = [&](const PiecePair& pieces) {
       return model.piece_body[pieces.a] != pair.a || model.piece_body[pieces.b] != pair.b;
     };
-    if (std::ranges::any_of(std::span(piece_pairs_).subspan(begin, end - begin), of_others)) return false;
+    if (std::ranges::any_of(std::span(piece_pairs_).subspan(begin, listed_end - begin), of_others))
+      return false;
+    listed_end = begin;
   }
   return slots_.hold(contacts);
 }
