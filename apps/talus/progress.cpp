@@ -12,9 +12,8 @@ namespace talus {
 
 namespace {
 
-/// After `done` of the work, on which `elapsed` seconds went.
-std::string left_text(double share, double done, double elapsed) {
-  return done > 0 ? clock_text(elapsed * (1 - share) / done) : std::string("-:--");
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
 }  // namespace
@@ -31,12 +30,16 @@ Progress::~Progress() {
 
 void Progress::show(double share, const std::string& words) {
   const Clock::time_point now = Clock::now();
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
   share = std::clamp(share, 0.0, 1.0);
-  if (style_ == Style::lines) print_line(share, words, elapsed);
+  if (style_ == Style::lines) print_line(share, words);
   if (style_ != Style::bar || (drawn_ && now - last_drawn_ < std::chrono::milliseconds(200))) return;
   last_drawn_ = now;
-  draw_bar(share, words, elapsed);
+  draw_bar(share, words);
+}
+
+std::string Progress::left_text(double share) const {
+  const double done = share - begin_;
+  return done > 0 ? clock_text(seconds_since(begun_) * (1 - share) / done) : std::string("-:--");
 }
 
 void Progress::clear() {
@@ -46,21 +49,22 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-void Progress::draw_bar(double share, const std::string& words, double elapsed) {
+void Progress::draw_bar(double share, const std::string& words) {
   constexpr int width = 30;
   const int filled = static_cast<int>(share * width);
   tell(fmt::format("\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {} left\033[K", "", filled, "", width - filled,
-                   std::floor(100 * share), words, left_text(share, share - begin_, elapsed)));
+                   std::floor(100 * share), words, left_text(share)));
   std::fflush(stderr);
   drawn_ = true;
 }
 
-void Progress::print_line(double share, const std::string& words, double elapsed) {
+void Progress::print_line(double share, const std::string& words) {
   const int tenths = static_cast<int>(std::floor(share * 10 + 1e-9));
   if (tenths <= tenths_) return;
   tenths_ = tenths;
-  const std::string text = fmt::format("{} %  {}  {} passed, {} left", tenths * 10, words,
-                                       clock_text(elapsed), left_text(share, share - begin_, elapsed));
+  const double elapsed = seconds_since(start_);
+  const std::string text =
+      fmt::format("{} %  {}  {} passed, {} left", tenths * 10, words, clock_text(elapsed), left_text(share));
   log_.info("progress", text, {{"share", share}, {"elapsed [s]", elapsed}});
 }
 

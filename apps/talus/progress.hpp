@@ -20,8 +20,11 @@ class Progress {
   /// `share` of the work is done; `words` say where it is.
   void show(double share, const std::string& words);
 
-  /// What comes goes on from there: of the time left only the rest tells.
-  void begin_at(double share) { begin_ = share; }
+  /// What comes goes on from there: of the time left only the rest tells, and what is shown from now on.
+  void begin_at(double share) {
+    begin_ = share;
+    begun_ = Clock::now();
+  }
 
   /// Removes the bar, so that other lines can follow.
   void clear();
@@ -29,12 +32,13 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw_bar(double share, const std::string& words, double elapsed);
-  void print_line(double share, const std::string& words, double elapsed);
+  void draw_bar(double share, const std::string& words);
+  void print_line(double share, const std::string& words);
+  std::string left_text(double share) const;
 
   Log log_;
   enum class Style { none, bar, lines } style_;
-  Clock::time_point start_ = Clock::now();
+  Clock::time_point start_ = Clock::now(), begun_ = start_;
   Clock::time_point last_drawn_{};
   double begin_ = 0;  ///< share of the work that was done before
   bool drawn_ = false;

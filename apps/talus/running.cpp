@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace talus {
 namespace {
 
@@ -153,7 +155,9 @@ int conduct(Simulation& simulation, RunOrder& order, const po::variables_map& gi
   } else if (scene.settle) {
     progress.show(0, "settling");
   }
+  bool settling = order.from != nullptr ? order.from->settling : scene.settle.has_value();
   order.progress = [&](double time) {
+    if (std::exchange(settling, false)) progress.begin_at(time / scene.time.end);  // that took its own time
     progress.show(time / scene.time.end, fmt::format("t = {:.4g} of {:.4g} s", time, scene.time.end));
   };
   const RunResult result = record_run(simulation, order);
