@@ -171,7 +171,15 @@ std::vector<std::string> warnings_of_runs(const Scene& scene, const Safety& safe
                       "the factor may be less: give it a longer /time/end",
                       stood.factor, stood.lasted, listed(names_of(scene, stood.moving_little))));
   }
-  if (!safety.factor()) return warnings;
+  if (!safety.factor()) {
+    const auto stopped = std::ranges::count_if(safety.runs, was_stopped);
+    if (stopped > 0)
+      warnings.push_back(
+          fmt::format("{} of {} runs count as collapses because they were stopped: safety.csv "
+                      "says by what",
+                      stopped, safety.runs.size()));
+    return warnings;
+  }
   const ReducedRun& fallen = run_at(safety, *safety.falls);
   if (was_stopped(fallen))
     warnings.push_back(fmt::format("the run at {:.4g} counts as a collapse because it was stopped: {}",

@@ -325,6 +325,15 @@ std::optional<double> Safety::factor() const {
   return (*stands + *falls) / 2;
 }
 
+std::string trouble_of_runs(const std::vector<ReducedRun>& runs) {
+  const auto stopped = [](const ReducedRun& run) { return !run.trouble.empty(); };
+  const auto of_themselves = std::find_if_not(runs.rbegin(), runs.rend(), stopped);
+  if (of_themselves == runs.rbegin()) return "";
+  return fmt::format(
+      "runs with {:.3g} to {:.3g} times the strength are all stopped, which says nothing of safety: {}",
+      1 / of_themselves.base()->factor, 1 / runs.back().factor, runs.back().trouble);
+}
+
 Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
   Safety safety;
   const Reduction reduction(scene, settings);
@@ -352,15 +361,9 @@ Safety factor_of_safety(const Scene& scene, const SafetySettings& settings) {
       if (next < settings.lowest || next > settings.highest) break;
     }
   }
-  const auto stopped = [](const ReducedRun& run) { return !run.trouble.empty(); };
-  if (!safety.interrupted && !safety.stands && std::ranges::all_of(safety.runs, stopped)) {
-    safety.trouble = fmt::format(
-        "runs with 1 to {:.3g} times the strength are all stopped, which says nothing of safety{}: {}",
-        1 / safety.runs.back().factor,
-        scene.settle && !may_bond(scene) ? "; they start from what the scene settles to with its own strength"
-                                         : "",
-        safety.runs.back().trouble);
-  }
+  if (!safety.interrupted && !safety.stands) safety.trouble = trouble_of_runs(safety.runs);
+  if (!safety.trouble.empty() && scene.settle && !may_bond(scene))
+    safety.trouble += "; all start from what the scene settles to with its own strength";
   return safety;
 }
 

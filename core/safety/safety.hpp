@@ -48,10 +48,14 @@ struct Safety {
   bool interrupted = false;
   bool of_what_is_left = false;       ///< some of the scene went while it settled with its full strength
   std::vector<std::string> warnings;  ///< of the run that settled with full strength
-  std::string trouble;                ///< in words, where every run was stopped and nothing was found
+  std::string trouble;                ///< in words, where no run stands and the strongest was stopped
 
   std::optional<double> factor() const;  ///< of safety, between the two
 };
+
+/// Of runs with ever more strength, none of which stands: what stopped the last of them, in words, or nothing
+/// where it collapsed of itself.
+std::string trouble_of_runs(const std::vector<ReducedRun>& runs);
 
 /// Strength reduction: the factor by which strength can be divided before a scene collapses, by bisection.
 /// All runs start from the geometry that the scene settles into with its full strength (bonded ones from

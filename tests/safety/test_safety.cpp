@@ -469,3 +469,21 @@ TEST_CASE("A block that a joint cuts out of a body is followed", "[safety][slow_
       opening, point(-0.5, 0), point(0.5, 0)));
   CHECK(factor_of(scene, 0.02) == Approx(on_a_plane_due).epsilon(0.02));
 }
+
+TEST_CASE("That a run with more strength was stopped is no collapse, whatever those with less did",
+          "[safety]") {
+  const auto run = [](double factor, const char* trouble) {
+    ReducedRun one;
+    one.factor = factor;
+    one.collapsed = true;
+    one.trouble = trouble;
+    return one;
+  };
+  const ReducedRun slides = run(1, ""), stops = run(0.8, "a step too long"), last = run(0.64, "no balance");
+  CHECK_THAT(
+      trouble_of_runs({slides, stops, last}),
+      Catch::Contains("1.25 to 1.56 times the strength are all stopped") && Catch::EndsWith("no balance"));
+  CHECK_THAT(trouble_of_runs({run(1, "odd"), stops}), Catch::Contains("with 1 to 1.25 times"));
+  CHECK(trouble_of_runs({slides, stops, run(0.64, "")}).empty());
+  CHECK(trouble_of_runs({}).empty());
+}
