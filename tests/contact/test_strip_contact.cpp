@@ -131,6 +131,28 @@ TEST_CASE("a divided body that nothing loads rests on the faces of its cut", "[c
   }
 }
 
+TEST_CASE("laws tell how deep a divided body is, not how far its parts reach askew", "[contact][strips]") {
+  const std::string shapes[] = {
+      box("a", 0, 0, 2, 1,
+          R"("velocity": [0, -1], "cover": {"model": "hexagonal", "size": 0.4, "offset_x": 0.1})"),
+      R"({"name": "a", "material": "rock", "cover": {"model": "rigid"}, "velocity": [0, -1],
+          "polygon": [[0, 0], [2, 0], [2, 0.6], [0.7, 0.6], [0.7, 2], [0, 2]]})"};
+  for (const char* law :
+       {"overlap_area", "vertex_edge", "frictionless", "feng_volume", "potential_symmetric"}) {
+    for (const std::string& shape : shapes) {
+      INFO(law << ", " << shape);
+      WorkingScene text;
+      text.law = law;
+      text.interface = R"("normal_stiffness": 1e5, "normal_damping": 0)";
+      if (law == std::string("overlap_area") || law == std::string("vertex_edge"))
+        text.interface += R"(, "tangential_stiffness": 1e5, "friction_angle": 20, "tangential_damping": 0)";
+      text.bodies = box("base", -3, -1, 4, 0, R"("fixed": true)") + "," + shape;
+      text.time = R"({"end": 1e-4, "dt": 1e-4})";  // one step
+      CHECK(run_to_end(text).summary().largest_penetration == Approx(1e-4).epsilon(1e-4));
+    }
+  }
+}
+
 TEST_CASE("feng_volume finds one contact along a boundary of strips", "[contact][strips]") {
   const double whole = Pressed(corner_on_flat(block, block, "feng_volume")).at(-0.01, 0.1).force_b.x;
   const std::pair<const char*, const char*> covers[] = {{block, fine}, {coarse, fine}, {fine, coarse}};

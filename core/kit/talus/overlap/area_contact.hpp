@@ -105,7 +105,7 @@ class AreaFinder {
       // Edges that close on themselves have no chord, but for rounding, which points anywhere.
       const bool measurable = length(normal) > 1e-9 * around;
       if (measurable) contact.chord_normal = contact.chord_normal + normal;
-      const double penetration = measurable   ? extent(all[i].polygon, normal)
+      const double penetration = measurable   ? depth_along(all[i], normal)
                                  : around > 0 ? 2 * area / around
                                               : 0;
       contact.penetration = std::max(contact.penetration, penetration);
@@ -129,6 +129,25 @@ class AreaFinder {
       around += length(outward);
     }
     return normal;
+  }
+
+  /// m, how far an overlap extends along its normal. Where a cut or the end of a strip bounds it one arc
+  /// lacks that stretch and the normal is askew: along those of the sides that face about as it does it is
+  /// less.
+  static double depth_along(const Overlap& overlap, Point normal) {
+    constexpr double about = 0.7;  // cosine
+    const Polygon& polygon = overlap.polygon;
+    double least = extent(polygon, normal);
+    bool divided = false;
+    for (const Corner& corner : polygon)
+      divided = divided || !overlap.piece[corner.side.body].real(corner.side.index);
+    for (std::size_t i = 0; i < polygon.size() && divided; ++i) {
+      const Point along = polygon[polygon.next(i)].at - polygon[i].at, outward{along.y, -along.x};
+      if (overlap.piece[polygon[i].side.body].real(polygon[i].side.index) &&
+          std::abs(dot(outward, normal)) >= about * length(outward) * length(normal))
+        least = std::min(least, extent(polygon, outward));
+    }
+    return least;
   }
 
   static double extent(const Polygon& polygon, Point across) {
