@@ -15,7 +15,7 @@ constexpr std::uint32_t sides_at_once = 128;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Of no corner, to add to.
-constexpr kernels::SpeedExtremes none{0, 0, infinite, -infinite, infinite, -infinite, 0, false};
+constexpr kernels::SpeedExtremes of_nothing{0, 0, infinite, -infinite, infinite, -infinite, 0, false};
 
 void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift) {
   const double squared = v.x * v.x + v.y * v.y, off_x = v.x - drift.x, off_y = v.y - drift.y;
@@ -29,7 +29,7 @@ void add(kernels::SpeedExtremes& all, Vec2 v, const kernels::CornerDrift& drift)
 
 kernels::SpeedExtremes speeds_of_corners(const Model& model, const MotionState& motion, const Body& body,
                                          std::span<const kernels::CornerDrift> drift) {
-  kernels::SpeedExtremes all = none;
+  kernels::SpeedExtremes all = of_nothing;
   model.visit_boundary(body, [&](std::uint32_t c) {
     add(all, {motion.corners[c].vx, motion.corners[c].vy}, drift[c]);
   });
@@ -191,7 +191,7 @@ kernels::SpeedExtremes Blocks::follow_other(const Model& model, std::span<const 
   }
   if (other.side_begin == model.ranges(body).side_begin) motion.forces[other.body] = {};
   if (is_asleep(other.body)) return {};
-  kernels::SpeedExtremes all = none;
+  kernels::SpeedExtremes all = of_nothing;
   for (std::uint32_t side = other.side_begin; side < other.side_end; ++side) {
     const Vec2 speed = boundary_seen_ ? motion.move_start(model, body, side)
                                       : carried(model.sides[side].start.carrier, motion.patch_velocity);
