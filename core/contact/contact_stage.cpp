@@ -27,6 +27,12 @@ constexpr std::size_t most_near_pairs = 4096;
 
 void noop(void* /*object*/) noexcept {}
 
+/// Across a gap that may be wider than what is sifted out.
+bool may_pull(const Scene& scene) {
+  return scene.contact.component != nullptr &&
+         ((scene.contact.component->component->traits & trait::pulls) != 0 || may_bond(scene));
+}
+
 /// [surface class] the first that meets all others at the same interfaces.
 std::vector<std::uint32_t> alike_surfaces(const Interfaces& interfaces) {
   const std::uint32_t count = interfaces.surface_count;
@@ -92,7 +98,7 @@ ContactStage::ContactStage(const Scene& scene, const Model& model, Workers& work
       sharing_(model.mostly_covered() ? heavy_pairs : plain_pairs),
       near_(skin_share * model.mean_width),
       skin_(neighbour_skin ? near_ : 0),
-      sifts_(skin_ > 0 && model.mostly_covered()),
+      sifts_(skin_ > 0 && model.mostly_covered() && !may_pull(scene)),
       workspaces_(static_cast<std::size_t>(workers.threads())),
       keeps_stored_(scene.sleep.has_value()),
       search_(model),

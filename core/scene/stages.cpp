@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace talus {
@@ -183,6 +184,18 @@ void read_stages(Reading& reading, Section& root, const Json& scene, const ReadA
               });
   }
   root.resolved["stages"] = std::move(resolved);
+}
+
+bool may_bond(const Scene& scene) {
+  if (scene.contact.component == nullptr) return false;
+  const Component& law = *scene.contact.component->component;
+  return std::ranges::any_of(scene.interface_values, [&](const std::vector<double>& values) {
+    for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
+      const std::string_view key = law.interface_parameters[i].key;
+      if (values[i] > 0 && (key.ends_with("cohesion") || key.ends_with("tensile_strength"))) return true;
+    }
+    return false;
+  });
 }
 
 StageSettings settings_of(const Scene& scene) {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace talus {
@@ -24,18 +23,6 @@ Motion with_stress(Motion motion, const std::array<double, 3>& stress) {
 }
 
 }  // namespace
-
-bool may_bond(const Scene& scene) {
-  if (scene.contact.component == nullptr) return false;
-  const Component& law = *scene.contact.component->component;
-  return std::ranges::any_of(scene.interface_values, [&](const std::vector<double>& values) {
-    for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
-      const std::string_view key = law.interface_parameters[i].key;
-      if (values[i] > 0 && (key.ends_with("cohesion") || key.ends_with("tensile_strength"))) return true;
-    }
-    return false;
-  });
-}
 
 Simulation::Simulation(Scene scene, const RunSettings& settings)
     : state_(std::make_unique<State>(std::move(scene), settings)) {

@@ -135,10 +135,6 @@ struct Geometry {
 /// Asked once per step whether to leave off after it.
 using Pause = std::function<bool()>;
 
-/// Whether an interface may be bonded. Bonds form where bodies are drawn, so that no other geometry can be
-/// given to such a scene.
-bool may_bond(const Scene& scene);
-
 /// A scene in motion. advance() runs to the next output time and leaves the state at t_n in reach.
 class Simulation {
  public:
