@@ -23,29 +23,6 @@ bool shaped_by_piece(const Model& model, std::uint32_t body) {
   return model.moves(body) && !model.one_piece(model.bodies[body]);
 }
 
-/// Whether all of a piece is more than `margin` outside of a side of another. `offset` takes the other's
-/// frame to that of the piece.
-bool outside(const Model& model, const MotionState& motion, std::uint32_t piece, std::uint32_t other,
-             Vec2 offset, double margin) {
-  for (std::uint32_t side = model.piece_start[other]; side < model.piece_start[other + 1]; ++side) {
-    const BoundaryCorner& from = motion.corners[side];
-    bool beyond = from.length > 0;
-    for (std::uint32_t c = model.piece_start[piece]; beyond && c < model.piece_start[piece + 1]; ++c) {
-      const double x = motion.corners[c].x - offset.x - from.x, y = motion.corners[c].y - offset.y - from.y;
-      beyond = from.tangent_y * x - from.tangent_x * y > margin;
-    }
-    if (beyond) return true;
-  }
-  return false;
-}
-
-bool apart(const Model& model, const MotionState& motion, const BodyPair& pair, const PiecePair& pieces,
-           double margin) {
-  const Vec2 offset{pair.offset_x, pair.offset_y};
-  return outside(model, motion, pieces.a, pieces.b, offset, margin) ||
-         outside(model, motion, pieces.b, pieces.a, {-offset.x, -offset.y}, margin);
-}
-
 }  // namespace
 
 bool ContactStage::find_pairs(const Model& model, MotionState& motion, double dt,
@@ -258,7 +235,9 @@ void ContactStage::sift_pieces(const Model& model, const MotionState& motion) {
     std::ranges::sort(all, {}, [](const PiecePair& pieces) { return std::pair{pieces.a, pieces.b}; });
     std::uint32_t near = 0;
     for (PiecePair& pieces : all) {
-      if (!apart(model, motion, pair, pieces, margin)) std::swap(pieces, all[near++]);
+      const bool apart = outside_of_a_side(model, motion, pieces.a, pieces.b, margin) ||
+                         outside_of_a_side(model, motion, pieces.b, pieces.a, margin);
+      if (!apart) std::swap(pieces, all[near++]);
     }
     const std::uint32_t least = pair.contact_count > 0 ? end - first : 1;
     last = first + (near > 0 ? near : least);

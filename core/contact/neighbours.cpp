@@ -16,6 +16,26 @@ constexpr double last_cell = 1 << 30;
 
 }  // namespace
 
+bool outside_of_a_side(const Model& model, const MotionState& motion, std::uint32_t piece,
+                       std::uint32_t other, double margin) {
+  const Vec2 from = model.bodies[model.piece_body[other]].centre,
+             to = model.bodies[model.piece_body[piece]].centre;
+  const double offset_x = to.x - from.x, offset_y = to.y - from.y;
+  const std::uint32_t begin = model.piece_start[other], end = model.piece_start[other + 1];
+  for (std::uint32_t side = begin; side < end; ++side) {
+    const BoundaryCorner &a = motion.corners[side], &b = motion.corners[side + 1 == end ? begin : side + 1];
+    const double along_x = b.x - a.x, along_y = b.y - a.y;
+    const double limit = margin * std::sqrt(along_x * along_x + along_y * along_y);
+    bool beyond = limit > 0;
+    for (std::uint32_t c = model.piece_start[piece]; beyond && c < model.piece_start[piece + 1]; ++c) {
+      const double x = motion.corners[c].x + offset_x - a.x, y = motion.corners[c].y + offset_y - a.y;
+      beyond = along_y * x - along_x * y > limit;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
 NeighbourSearch::NeighbourSearch(const Model& model) : boxes_(model.piece_body.size()) {
   origin_ = model.bodies.empty() ? Vec2{} : model.bodies[0].centre;
   std::vector<double> sizes;
@@ -111,21 +131,7 @@ bool NeighbourSearch::outside(const Model& model, const MotionState& motion, std
                               std::uint32_t p, double skin) {
   const std::uint32_t body = model.piece_body[large], other = model.piece_body[p];
   if ((model.moves(body) && model.moves(other)) || model.is_strip[large] != 0) return false;
-  const Vec2 from = model.bodies[body].centre, to = model.bodies[other].centre;
-  const double offset_x = to.x - from.x, offset_y = to.y - from.y;
-  const std::uint32_t begin = model.piece_start[large], end = model.piece_start[large + 1];
-  for (std::uint32_t side = begin; side < end; ++side) {
-    const BoundaryCorner &a = motion.corners[side], &b = motion.corners[side + 1 == end ? begin : side + 1];
-    const double along_x = b.x - a.x, along_y = b.y - a.y;
-    const double limit = skin * std::sqrt(along_x * along_x + along_y * along_y);
-    bool beyond = limit > 0;
-    for (std::uint32_t c = model.piece_start[p]; beyond && c < model.piece_start[p + 1]; ++c) {
-      const double x = motion.corners[c].x + offset_x - a.x, y = motion.corners[c].y + offset_y - a.y;
-      beyond = along_y * x - along_x * y > limit;
-    }
-    if (beyond) return true;
-  }
-  return false;
+  return outside_of_a_side(model, motion, p, large, skin);
 }
 
 void NeighbourSearch::offer(const Model& model, std::uint32_t p, std::uint32_t q,

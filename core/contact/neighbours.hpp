@@ -33,6 +33,10 @@ class CandidateOrder {
   bool divided_;               ///< some body has several
 };
 
+/// Whether all of `piece` is more than `margin` outside of a side of `other`, which keeps the two apart.
+bool outside_of_a_side(const Model& model, const MotionState& motion, std::uint32_t piece,
+                       std::uint32_t other, double margin);
+
 /// Finds candidates in O(N): a uniform grid for the common pieces, a list for the few that are much larger.
 class NeighbourSearch {
  public:

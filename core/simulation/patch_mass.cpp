@@ -33,6 +33,7 @@ std::vector<SteadyPatch> heavier_patches(const Model& model, const Body& body) {
 PatchMass::PatchMass(const Model& model) : core_inverse_(model.steady.empty() ? 0 : model.bodies.size()) {
   inverse_.reserve(model.patch_mass.size());
   for (const double mass : model.patch_mass) inverse_.push_back(mass > 0 ? 1 / mass : 0);
+  if (model.steady.empty()) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const CoverRanges& ranges = model.ranges(body);

@@ -361,6 +361,7 @@ std::string limiter_of_automatic(const Scene& scene, const CriticalStep& step) {
 }
 
 std::vector<SliverEffect> sliver_effects(const Scene& scene, const Model& model) {
+  if (model.steady.empty()) return {};
   Model untreated = model;
   untreated.patch_mass = untreated.row_sum;
   for (CoverRanges& ranges : untreated.cover_ranges) ranges.steady_end = ranges.steady_begin;

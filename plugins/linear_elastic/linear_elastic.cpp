@@ -107,8 +107,8 @@ class LinearElastic final : public Material {
       respond<true>(batch, response);
     } else {
       respond<false>(batch, response);
-      for (double* component : response.viscous_stress)
-        if (damping_time_ > 0) std::fill_n(component, batch.count, 0.0);
+      if (!needs_previous_deformation()) return;
+      for (double* component : response.viscous_stress) std::fill_n(component, batch.count, 0.0);
     }
   }
 
