@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace talus::vertex_edge {
 
@@ -19,7 +20,7 @@ struct CornerContact {
   double tributary;           ///< m, length of boundary whose load the vertex carries
   double filled;        ///< share of half of force times depth that its spring holds: less than 1 where the
                         ///< tributary grows with the depth
-  double in_corner;     ///< m, that length where it shares a reflex corner
+  double lent;          ///< m, what the other face of a reflex corner lends to that length
   double slack;         ///< m, how far past the end of the side the vertex may be and still stand on it
   double share;         ///< of its spring: half where two corners that bear alike meet on each other's edges,
                         ///< see also `share_in_corner`; else 1
@@ -30,6 +31,20 @@ struct CornerContact {
   bool bonded;          ///< by what has not broken yet
   Point before, after;  ///< tangents of the edges that meet in the vertex
 };
+
+inline const Piece& own_piece(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  return pieces[contact.entry].piece[contact.vertex_body];
+}
+
+/// The piece whose side it stands on.
+inline const Piece& other_piece(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  return pieces[contact.entry].piece[1 - contact.vertex_body];
+}
+
+/// By which the side is known again at the next step.
+inline double side_number(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  return other_piece(pieces, contact).first_corner() + contact.side;
+}
 
 /// How far above a side a vertex still stands on it, m: held by a bond, and with what a step may have torn
 /// that off, so that it is seen to break.

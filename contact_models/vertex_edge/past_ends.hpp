@@ -69,7 +69,7 @@ inline bool is_before_another(std::span<const PiecePairGeometry> pieces, Point a
                               const CornerContact& contact) {
   const double touching = 1e-6 * contact.depth;
   const std::uint32_t met = 1 - contact.vertex_body;
-  const Piece& side_of = pieces[contact.entry].piece[met];
+  const Piece& side_of = other_piece(pieces, contact);
   const double past_end = side_of.length(contact.side) * std::max(-contact.lever, contact.lever - 1);
   // At the corner itself rounding alone tells the two apart, and bonds form to both.
   if (contact.depth <= 1e-12 * side_of.length(contact.side)) return false;

@@ -1,16 +1,18 @@
 #pragma once
 
 #include "corner_contact.hpp"
+#include "springs.hpp"
+#include "tributary.hpp"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace talus::vertex_edge {
 
 /// Whether the boundary goes on from the side of `p` to that of `q` where it bends inwards.
 inline bool leads(std::span<const PiecePairGeometry> pieces, const CornerContact& p, const CornerContact& q) {
-  const Piece &from = pieces[p.entry].piece[1 - p.vertex_body],
-              &to = pieces[q.entry].piece[1 - q.vertex_body];
+  const Piece &from = other_piece(pieces, p), &to = other_piece(pieces, q);
   if (from.is_strip() || to.is_strip()) return false;  // under load they bend at every corner
   const double near = 1e-9 * std::min(from.length(p.side), to.length(q.side));
   return length(from.at(from.next(p.side)) - to.at(q.side)) <= near &&
@@ -26,7 +28,7 @@ inline bool in_reflex_corner(std::span<const PiecePairGeometry> pieces, const Co
 /// m, how far a vertex is past that end of its side where the boundary leads on to another, or from it.
 inline double past_end(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
                        bool leads_on) {
-  const Piece& side_of = pieces[contact.entry].piece[1 - contact.vertex_body];
+  const Piece& side_of = other_piece(pieces, contact);
   return side_of.length(contact.side) * (leads_on ? contact.lever - 1 : -contact.lever);
 }
 
@@ -36,10 +38,10 @@ inline double flatness(Point edge, Point side) {
   return cosine > 0 ? std::clamp(2 * cosine * cosine - 1, 0.0, 1.0) : 0;
 }
 
-/// How much of its spring a vertex has on one face of a reflex corner, and what part of that goes by the
-/// length of the other face.
+/// How much of its spring a vertex has on one face of a reflex corner, what part of that the corner holds,
+/// and how far that is inside the wedge between the normals: 1 but for its last quarter.
 struct CornerShare {
-  double all = 1, lent = 0;
+  double all = 1, of_corner = 0, inside = 0;
 };
 
 /// On the one face, `p`, beside the other, `q`. A vertex is held by the nearest point of the boundary, with
@@ -51,11 +53,11 @@ inline CornerShare share_in_corner(std::span<const PiecePairGeometry> pieces, co
                                    const CornerContact& q) {
   // Not the ends of strips: with shares a block of many elements that slid over bends of 10° missed 2.9 % of
   // its energy, without them 0.02 %.
-  if (pieces[p.entry].piece[p.vertex_body].is_strip()) return {};
+  if (own_piece(pieces, p).is_strip()) return {};
   const bool leads_on = leads(pieces, p, q);
   if (!(leads_on || leads(pieces, q, p)) || !(p.depth > 0 && q.depth > 0)) return {};
-  const Point along_p = pieces[p.entry].piece[1 - p.vertex_body].tangent(p.side),
-              along_q = pieces[q.entry].piece[1 - q.vertex_body].tangent(q.side);
+  const Point along_p = other_piece(pieces, p).tangent(p.side),
+              along_q = other_piece(pieces, q).tangent(q.side);
   if (!(dot(along_p, along_q) > 0)) return {};
   const double past_q = past_end(pieces, q, !leads_on);
   const double nearest = std::clamp(past_q / (std::abs(cross(along_p, along_q)) * p.depth), 0.0, 1.0);
@@ -64,27 +66,69 @@ inline CornerShare share_in_corner(std::span<const PiecePairGeometry> pieces, co
                       flatness(p.before, leads_on ? along_q : along_p) *
                       std::clamp(2 + past_q / beside, 0.0, 1.0);
   const double all = both + (1 - both) * nearest;
-  if (!(all > 0)) return {0, 0};
-  return {all,
-          (1 - both) * nearest / all * std::min(1.0, 4 * (1 - nearest))};  // none where it leaves the wedge
+  if (!(all > 0)) return {0, 0, 0};
+  return {all, (1 - both) * nearest / all, std::min(1.0, 4 * (1 - nearest))};
+}
+
+/// m, what a vertex was lent on the side that it stands on.
+inline double lent_before(std::span<const PiecePairGeometry> pieces, const std::vector<SpringHistory>& old,
+                          const CornerContact& contact) {
+  const double side = side_number(pieces, contact);
+  const auto own = std::ranges::find_if(old, [&](const SpringHistory& history) {
+    return history.key == 1.0 + contact.key && history.side == side;
+  });
+  return own != old.end() ? own->lent : 0;
+}
+
+/// m, over which what a vertex was lent goes as it moves away from the corner along the face.
+inline double lending_reach(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  const Piece &own = own_piece(pieces, contact), &other = other_piece(pieces, contact);
+  const std::uint32_t edge = flatter_edge(own, contact.vertex, other.tangent(contact.side));
+  return least_tributary(own.length(edge), other.length(contact.side));
+}
+
+inline double still_lent(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  const double from_corner = other_piece(pieces, contact).length(contact.side) *
+                             std::max(0.0, std::min(contact.lever, 1 - contact.lever));
+  return contact.lent * std::max(0.0, 1 - from_corner / lending_reach(pieces, contact));
+}
+
+/// Whether a vertex is so little deep that its spring may change at once: what that holds is nothing beside
+/// what it will.
+inline bool only_touches(std::span<const PiecePairGeometry> pieces, const CornerContact& contact) {
+  return contact.depth < 2e-3 * lending_reach(pieces, contact);
 }
 
 /// Of a vertex that is found on both faces of a reflex corner. What the corner holds goes by the longer of
-/// the stretches that its edge faces of the two, as far as the edge lies flat there; a tip faces none.
-inline void share_corners(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
+/// the stretches that its edge faces of the two, as far as the edge lies flat there; a tip faces none. What
+/// that adds comes as the vertex enters the wedge between the normals, all at once where it only touches, and
+/// goes far slower: a spring that changes within its own depth would drive a vertex that trembles there.
+inline void share_corners(std::span<const PiecePairGeometry> pieces, const std::vector<SpringHistory>& old,
+                          std::vector<CornerContact>& found) {
   for (CornerContact& contact : found) {
-    contact.in_corner = contact.tributary;
+    const double before = lent_before(pieces, old, contact);
+    bool in_corner = false;
     for (const CornerContact& other : found) {
       if (other.key != contact.key || &other == &contact) continue;
       const CornerShare share = share_in_corner(pieces, contact, other);
       contact.share *= share.all;
-      const Point along = pieces[other.entry].piece[1 - other.vertex_body].tangent(other.side);
+      if (!(share.of_corner > 0)) continue;
+      const Point along = other_piece(pieces, other).tangent(other.side);
       const double flat = std::max(flatness(other.before, along), flatness(other.after, along));
-      contact.in_corner += share.lent * flat * std::max(0.0, other.tributary - contact.tributary);
+      const double most = share.of_corner * flat * std::max(0.0, other.tributary - contact.tributary);
+      const double at_once = only_touches(pieces, contact) ? most : std::min(before, most);
+      contact.lent = std::max({contact.lent, share.inside * most, at_once});
+      in_corner = true;
     }
+    if (!in_corner) contact.lent = before;
   }
   std::erase_if(found, [](const CornerContact& contact) { return contact.share == 0; });
-  for (CornerContact& contact : found) contact.tributary = contact.in_corner;
+  for (CornerContact& contact : found) {
+    if (!(contact.lent > 0)) continue;
+    const double left = still_lent(pieces, contact);
+    contact.tributary += left;
+    if (left == 0) contact.lent = 0;
+  }
 }
 
 /// Whether two sides of a body of many elements may be one that has bent under its load.
@@ -99,16 +143,12 @@ inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerCon
                       const CornerContact& other) {
   if (contact.idle != other.idle) {
     const CornerContact& bears = contact.idle ? other : contact;
-    const Piece &own = pieces[bears.entry].piece[bears.vertex_body],
-                &met = pieces[bears.entry].piece[1 - bears.vertex_body];
+    const Piece &own = own_piece(pieces, bears), &met = other_piece(pieces, bears);
     if (bears.depth <= shallow(own.length(0), met.length(bears.side))) return other.idle;
   }
   const auto beside = [](const CornerContact& one) { return std::max({0.0, -one.lever, one.lever - 1}); };
-  const auto side_of = [&](const CornerContact& one) -> const Piece& {
-    return pieces[one.entry].piece[1 - one.vertex_body];
-  };
   const double apart = beside(contact) - beside(other);
-  if (apart != 0 && bends_little(side_of(contact), side_of(other))) return apart < 0;
+  if (apart != 0 && bends_little(other_piece(pieces, contact), other_piece(pieces, other))) return apart < 0;
   if (std::abs(contact.depth - other.depth) > 1e-9 * contact.tributary) return contact.depth < other.depth;
   return apart < 0;
 }
@@ -118,7 +158,7 @@ inline bool is_nearer(std::span<const PiecePairGeometry> pieces, const CornerCon
 inline bool stands_past_cut(std::span<const PiecePairGeometry> pieces, const CornerContact& contact,
                             const std::vector<CornerContact>& found) {
   const std::uint32_t met = 1 - contact.vertex_body;
-  const Point at = pieces[contact.entry].piece[contact.vertex_body].at(contact.vertex);
+  const Point at = own_piece(pieces, contact).at(contact.vertex);
   const auto holds = [&](const PiecePairGeometry& pair) {
     const Piece& piece = pair.piece[met];
     for (std::uint32_t k = 0; k < piece.size(); ++k) {
@@ -135,11 +175,12 @@ inline bool stands_past_cut(std::span<const PiecePairGeometry> pieces, const Cor
 
 /// A vertex on the cut between two pieces of a body stands on one of them only, where it is less deep, and
 /// on the sides that reflex corners lead to from there.
-inline void drop_repeated(std::span<const PiecePairGeometry> pieces, std::vector<CornerContact>& found) {
+inline void drop_repeated(std::span<const PiecePairGeometry> pieces, const std::vector<SpringHistory>& old,
+                          std::vector<CornerContact>& found) {
   std::erase_if(found, [&](const CornerContact& contact) {
     return contact.past_cut && !stands_past_cut(pieces, contact, found);
   });
-  share_corners(pieces, found);
+  share_corners(pieces, old, found);
   for (auto contact = found.begin(); contact != found.end(); ++contact) {
     const auto nearest = std::find_if(found.begin(), contact, [&](const CornerContact& other) {
       return other.stands && other.key == contact->key;

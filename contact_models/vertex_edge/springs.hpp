@@ -5,7 +5,7 @@
 
 namespace talus::vertex_edge {
 
-/// What the host keeps for each vertex on an edge: eight doubles.
+/// What the host keeps for each vertex on an edge: nine doubles.
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
@@ -15,9 +15,10 @@ struct SpringHistory {
   double pulled;   ///< J/m, what its bond holds across a gap, as counted: lost when it breaks
   double side;     ///< number of the side that it stands on
   double viscous;  ///< N/m, what its tangential dashpot adds to `applied`
+  double lent;     ///< m, CornerContact::lent
 };
 
-inline constexpr unsigned spring_doubles = 8;
+inline constexpr unsigned spring_doubles = 9;
 
 /// Per area where springs are, tan φ, shares of critical damping, Pa.
 struct Interface {

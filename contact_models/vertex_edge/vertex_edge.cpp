@@ -130,13 +130,14 @@ class VertexEdge final : public ContactModel {
     old.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
-      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7]});
+      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8]});
     }
   }
 
   static void write(const SpringHistory& history, double* to) {
     to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
-    to[4] = history.applied, to[5] = history.pulled, to[6] = history.side, to[7] = history.viscous;
+    to[4] = history.applied, to[5] = history.pulled, to[6] = history.side, to[7] = history.viscous,
+    to[8] = history.lent;
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
@@ -165,13 +166,8 @@ class VertexEdge final : public ContactModel {
       };
       work.finder.find(all, e, bond_reach, std::max(seen, touching), work.found);
     }
-    drop_repeated(all, work.found);
+    drop_repeated(all, work.old, work.found);
     CoveredSides(all, work.found, work.corners).share();
-  }
-
-  static double side_of(const CornerContact& contact, const Workspace& work) {
-    const Piece& other = work.pieces[contact.entry].piece[1 - contact.vertex_body];
-    return other.first_corner() + contact.side;
   }
 
   /// m/s, no two corners part faster.
@@ -235,15 +231,16 @@ class VertexEdge final : public ContactModel {
   /// The history of a contact: its own, on whichever side that was, or that of the corner it meets or of its
   /// other face in a reflex corner (the two share one spring), or a new one.
   static SpringHistory born(const ContactBatch& batch, const CornerContact& contact, const Workspace& work) {
-    const double side = side_of(contact, work);
+    const double side = side_number(work.pieces, contact);
     if (const SpringHistory* old = find_own(contact, side, work)) {
       SpringHistory own = *old;
       own.side = side;
+      own.lent = contact.lent;
       return own;
     }
     // A vertex that is bonded to one face of a corner is not to the other across a gap.
     const bool bonds = batch.bonds_form && contact.depth >= -touching_gap(work.pieces[contact.entry]);
-    SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0};
+    SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0, contact.lent};
     if (contact.share < 1 && !contact.meets_corner) {
       if (const SpringHistory* old = find_old(work.old, contact.key)) {
         history.elastic = old->elastic;
@@ -254,8 +251,7 @@ class VertexEdge final : public ContactModel {
     for (const CornerContact& other : work.found) {
       if (!other.meets_corner || other.entry != contact.entry || other.vertex_body == contact.vertex_body)
         continue;
-      const Piece& own = work.pieces[contact.entry].piece[contact.vertex_body];
-      const Piece& met = work.pieces[contact.entry].piece[1 - contact.vertex_body];
+      const Piece &own = own_piece(work.pieces, contact), &met = other_piece(work.pieces, contact);
       // Both ends of the side may meet corners; the partner is the one at this end.
       if (other.vertex != (contact.lever < 0.5 ? contact.side : met.next(contact.side))) continue;
       if (const SpringHistory* old = find_old(work.old, other.key)) {

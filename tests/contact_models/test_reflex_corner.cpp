@@ -234,6 +234,39 @@ TEST_CASE("a block that slides over bends is the same bits however candidates ar
   }
 }
 
+TEST_CASE("a wedge whose tip sticks in the toe of a bench comes to rest", "[laws][vertex_edge]") {
+  struct Bench {
+    double plane, face;  ///< deg
+    const char* floor;   ///< friction, deg
+  };
+  for (const Bench& bench : {Bench{35, 60, "45"}, Bench{40, 60, "0"}, Bench{50, 75, "0"}}) {
+    INFO("plane of " << bench.plane << ", face of " << bench.face << " degrees");
+    const double over_plane = 1 / std::tan(bench.plane * degree),
+                 over_face = 1 / std::tan(bench.face * degree);
+    WorkingScene text;
+    text.law = "vertex_edge";
+    text.cover = "block";
+    text.gravity = "[0, -9.81]";
+    text.interface =
+        fmt::format(R"("normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": {},
+                                    "normal_damping": 0.3, "tangential_damping": 0.3}},
+        {{"between": ["plane", "rock"], "normal_stiffness": 1e9, "tangential_stiffness": 1e9, "friction_angle": 60,
+          "normal_damping": 0.3, "tangential_damping": 0.3)",
+                    bench.floor);
+    text.bodies = fmt::format(
+        R"({{"name": "bench", "material": "rock", "fixed": true, "surfaces": {{"plane": [0]}},
+             "polygon": [[0, 0], [{}, 16], [{}, -8], [-5, -8], [-5, 0]]}},
+           {{"name": "wedge", "material": "rock", "polygon": [[0, 0], [{}, 8], [{}, 12], [{}, 12]]}})",
+        16 * over_plane, 16 * over_plane, 8 * over_plane, 8 * over_plane, 12 * over_face);
+    text.rest = R"("settle": {"duration": 2, "damping": "adaptive", "until": 1e-6, "hold_stick": false},)";
+    text.time = R"({"end": 0.5})";
+    const Simulation simulation = settle_and_run(text);
+    CHECK(residual_share(simulation.ledger()) < 5e-3);
+    const Vec2 velocity = simulation.body_motion(1).velocity;
+    CHECK(std::hypot(velocity.x, velocity.y) < 1e-3);
+  }
+}
+
 TEST_CASE("a corner that comes to a slight bend is pushed by how deep it is, before it and past it",
           "[laws][vertex_edge]") {
   // It sinks by 5 mm/s and moves on by 1 m/s, to the bend in 0.2 s.
