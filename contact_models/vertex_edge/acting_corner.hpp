@@ -42,7 +42,7 @@ class ActingCorner {
     const SpringHistory old = history;
     history.viscous = 0;
     viscous_ = normal_dashpot();
-    force_ = spring_force(spring_, contact_.depth, viscous_, old.elastic, slip_, held_);
+    force_ = spring_force(spring_, contact_.depth, viscous_, old.carried(spring_.stretch), slip_, held_);
     if (force_.breaks) history.intact = 0;
     if (force_.normal <= 0 && history.intact == 0) {
       book_end(old, report);
@@ -95,16 +95,14 @@ class ActingCorner {
   void keep_springs(const SpringHistory& old, double filled, SpringHistory& history,
                     PairReport& report) const {
     const double normal = contact_.share * filled * force_.normal * contact_.depth / 2;
-    const double tangential = spring_.tangential > 0 ? contact_.share * force_.tangential *
-                                                           force_.tangential / (2 * spring_.tangential)
-                                                     : 0;
     history.elastic = force_.tangential;
+    history.stretch = spring_.stretch;
     history.applied = contact_.share * force_.tangential;
-    history.stored = tangential;
+    history.stored =
+        spring_.tangential > 0 ? history.applied * force_.tangential / (2 * spring_.tangential) : 0;
     history.pulled = contact_.depth < 0 ? normal : 0;
-    report.stored += normal + tangential;
-    report.slip_loss +=
-        -old.stored - old.pulled - (old.applied + history.applied) * slip_ / 2 - (tangential - old.stored);
+    report.stored += normal + history.stored;
+    report.slip_loss -= history.stored + old.pulled + (old.applied + history.applied) * slip_ / 2;
     // What a dashpot pushed with until it slips is lost in friction; while it sticks the host books that.
     if (force_.slips) report.slip_loss -= old.viscous * slip_ / 2;
     report.penetration = std::max(report.penetration, contact_.depth);

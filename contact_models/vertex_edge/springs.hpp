@@ -5,7 +5,7 @@
 
 namespace talus::vertex_edge {
 
-/// What the host keeps for each vertex on an edge: nine doubles.
+/// What the host keeps for each vertex on an edge: ten doubles.
 struct SpringHistory {
   double key;      ///< 1 + number of the vertex, 0 for none
   double elastic;  ///< N/m, tangential spring force on the vertex along the edge, of the whole spring
@@ -16,9 +16,14 @@ struct SpringHistory {
   double side;     ///< number of the side that it stands on
   double viscous;  ///< N/m, what its tangential dashpot adds to `applied`
   double lent;     ///< m, CornerContact::lent
+  double stretch;  ///< SpringParameters::stretch; 0 before it acts
+
+  /// N/m, what is left of the spring force now. As the stretch gets shorter the force goes with it, or
+  /// shearing, easing and shearing back would make energy.
+  double carried(double now) const { return now < stretch ? elastic * (now / stretch) : elastic; }
 };
 
-inline constexpr unsigned spring_doubles = 9;
+inline constexpr unsigned spring_doubles = 10;
 
 /// Per area where springs are, tan φ, shares of critical damping, Pa.
 struct Interface {
@@ -31,6 +36,7 @@ struct SpringParameters {
   double normal, tangential;  ///< N/m per metre of thickness
   double friction;            ///< μ
   double cohesion, tensile;   ///< N/m, strength times tributary length; zero once the bond is broken
+  double stretch;             ///< m, that the stiffness goes with; any but always the same if that is given
   double least;               ///< N/m, tension of a gap that is only rounding, which cohesion survives
 };
 

@@ -130,14 +130,14 @@ class VertexEdge final : public ContactModel {
     old.clear();
     for (std::uint32_t i = 0; i < pair.contact_count; ++i) {
       const double* h = batch.history + (pair.slot_start + i) * spring_doubles;
-      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8]});
+      old.push_back({h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8], h[9]});
     }
   }
 
   static void write(const SpringHistory& history, double* to) {
     to[0] = history.key, to[1] = history.elastic, to[2] = history.stored, to[3] = history.intact;
     to[4] = history.applied, to[5] = history.pulled, to[6] = history.side, to[7] = history.viscous,
-    to[8] = history.lent;
+    to[8] = history.lent, to[9] = history.stretch;
   }
 
   void find_contacts(const ContactBatch& batch, const BodyPair& pair, Workspace& work) const {
@@ -240,7 +240,7 @@ class VertexEdge final : public ContactModel {
     }
     // A vertex that is bonded to one face of a corner is not to the other across a gap.
     const bool bonds = batch.bonds_form && contact.depth >= -touching_gap(work.pieces[contact.entry]);
-    SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0, contact.lent};
+    SpringHistory history{1.0 + contact.key, 0, 0, bonds ? 1.0 : 0.0, 0, 0, side, 0, contact.lent, 0};
     if (contact.share < 1 && !contact.meets_corner) {
       if (const SpringHistory* old = find_old(work.old, contact.key)) {
         history.elastic = old->elastic;
@@ -271,6 +271,7 @@ class VertexEdge final : public ContactModel {
             interface.friction,
             intact ? interface.cohesion * tributary : 0,
             intact ? interface.tensile * tributary : 0,
+            direct_ ? 1 : tributary,
             intact && interface.cohesion > 0 ? normal * rounding_gap * tributary : 0};
   }
 

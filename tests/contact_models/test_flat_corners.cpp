@@ -111,3 +111,26 @@ TEST_CASE("What is drawn flush is bonded, whatever rounding makes of it", "[laws
   for (const double gap : {0.0, 1e-12, 1e-10, 9e-10}) CHECK(holds(gap) == Approx(5e4).epsilon(1e-4));
   CHECK(holds(1e-8) == 0);
 }
+
+TEST_CASE("friction takes energy from a block that spins on its corners, and gives none",
+          "[laws][vertex_edge]") {
+  // As it turns, its corners face less of the floor while they stick: their springs get softer.
+  WorkingScene text;
+  text.law = "vertex_edge";
+  text.material = R"("density": 2000, "model": "linear_elastic", "young_modulus": 1e9, "poisson_ratio": 0.2)";
+  text.interface = R"("normal_stiffness": 2e7, "tangential_stiffness": 2e7, "friction_angle": 75,
+                      "normal_damping": 0, "tangential_damping": 0)";
+  text.bodies = box("floor", -5, -1, 5, 0, R"("fixed": true)") + R"(, {"name": "block", "material": "rock",
+      "polygon": [[0.364, 0], [0.558, 0.461], [-0.364, 0.849], [-0.558, 0.388]],
+      "velocity": [4, -1.6], "angular_velocity": -127})";
+  text.time = R"({"end": 0.05, "dt": 1e-5})";
+  Simulation simulation(text.read(), {});
+  double before = 0, least = 0;
+  while (simulation.advance()) {
+    const double loss = simulation.ledger().friction_loss;
+    least = std::min(least, loss - before);
+    before = loss;
+  }
+  CHECK(before > 100);
+  CHECK(least > -1e-6);
+}
