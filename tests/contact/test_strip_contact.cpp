@@ -8,7 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace talus;
 
@@ -43,6 +47,37 @@ class Pressed {
   explicit Pressed(const WorkingScene& text) : scene_(text.read()), model_(build_model(scene_)) {}
 
   Loaded at(double x, double y, double turn = 0) const {
+    MotionState motion = displaced(x, y, turn);
+    Loaded loaded{stored(motion), {}, {}, 0};
+    add(motion, 0, loaded.force_a, loaded.moment);
+    add(motion, 1, loaded.force_b, loaded.moment);
+    return loaded;
+  }
+
+  /// How far the forces of b's patches are from minus the gradient of the energy, as a share of the largest.
+  double off_gradient(double x, double y, double step) const {
+    MotionState motion = displaced(x, y, 0);
+    stored(motion);
+    const std::vector<Vec2> forces(motion.patch_force.begin(), motion.patch_force.end());
+    const CoverRanges& ranges = model_.ranges(model_.bodies[1]);
+    double largest = 0, off = 0;
+    for (std::uint32_t p = ranges.patch_begin; p < ranges.patch_end; ++p) {
+      for (double Vec2::*component : {&Vec2::x, &Vec2::y}) {
+        const auto moved = [&](double by) {
+          MotionState there = displaced(x, y, 0);
+          there.patch_displacement[p].*component += by;
+          return stored(there);
+        };
+        const double due = -(moved(step) - moved(-step)) / (2 * step);
+        off = std::max(off, std::abs(forces[p].*component - due));
+        largest = std::max(largest, std::abs(due));
+      }
+    }
+    return off / largest;
+  }
+
+ private:
+  MotionState displaced(double x, double y, double turn) const {
     MotionState motion(model_);
     const CoverRanges& ranges = model_.ranges(model_.bodies[1]);
     const Matrix2 h{std::cos(turn) - 1, -std::sin(turn), std::sin(turn), std::cos(turn) - 1};
@@ -52,16 +87,17 @@ class Pressed {
       const Vec2 star = model_.patch_star[p];
       motion.patch_displacement[p] = {x + h.xx * star.x + h.xy * star.y, y + h.yx * star.x + h.yy * star.y};
     }
+    return motion;
+  }
+
+  /// J/m, with the loads.
+  double stored(MotionState& motion) const {
     move_boundary(model_, motion);
     ContactStage contacts(scene_, model_, alone(), true);
     contacts.find_pairs(model_, motion, 0, {});
-    Loaded loaded{contacts.evaluate(model_, motion, {0, true, false}).stored, {}, {}, 0};
-    add(motion, 0, loaded.force_a, loaded.moment);
-    add(motion, 1, loaded.force_b, loaded.moment);
-    return loaded;
+    return contacts.evaluate(model_, motion, {0, true, false}).stored;
   }
 
- private:
   /// Linear functions are carried exactly, so patch forces at their star points have the moment of the loads.
   void add(const MotionState& motion, std::uint32_t index, Vec2& force, double& moment) const {
     const Body& body = model_.bodies[index];
@@ -111,6 +147,45 @@ TEST_CASE("between bodies of any covers the contact force is minus the gradient 
     // The force of a corner on a flat side does not depend on how either is covered.
     CHECK(pressed.at(-0.01, 0.1).force_b.x == Approx(whole).epsilon(1e-9));
   }
+}
+
+TEST_CASE(
+    "where sides of a lattice have several stiffnesses its patches feel minus the gradient of the energy",
+    "[contact][strips]") {
+  const std::pair<const char*, const char*> covers[] = {{block, coarse}, {coarse, coarse}, {fine, coarse}};
+  for (const auto& [a, b] : covers) {
+    INFO(a << ' ' << b);
+    WorkingScene text = corner_on_flat(a, b + std::string(R"(, "surfaces": {"soft": [0]})"), "frictionless");
+    text.interface = R"("normal_stiffness": 1e9, "normal_damping": 0},
+                       {"between": ["soft", "*"], "normal_stiffness": 1e8, "normal_damping": 0)";
+    const Pressed pressed(text);
+    for (const double depth : {1e-3, 0.01, 0.03}) {
+      for (int i = 0; i < 4; ++i) CHECK(pressed.off_gradient(-depth, -0.2 + 0.11 * i, 1e-4 * depth) < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("a specimen whose joint is softer than its outline rests under its loads", "[contact][strips]") {
+  WorkingScene text;
+  text.material =
+      R"("density": 2600, "model": "linear_elastic", "young_modulus": 2e10, "poisson_ratio": 0.25)";
+  text.interface = R"("normal_stiffness": 2e10, "tangential_stiffness": 2e10, "friction_angle": 30,
+                      "normal_damping": 0.3, "tangential_damping": 0.3},
+      {"between": ["joint", "joint"], "normal_stiffness": 2e9, "tangential_stiffness": 2e9, "friction_angle": 30,
+       "normal_damping": 0.3, "tangential_damping": 0.3)";
+  text.bodies =
+      box("platen", -2, -1, 3, 0, R"("fixed": true)") + ", " +
+      box("specimen", 0, 0, 1, 4,
+          R"("cover": {"model": "hexagonal", "size": 0.25}, "surfaces": {"right": [1], "top": [2], "left": [3]},
+                       "discontinuities": [{"points": [[-0.2, 0.8], [1.2, 3.2]], "surface": "joint"}])");
+  text.rest = R"("surface_loads": [{"body": "specimen", "surface": "right", "pressure": 1e6},
+                                   {"body": "specimen", "surface": "top", "pressure": 1e6},
+                                   {"body": "specimen", "surface": "left", "pressure": 1e6}],
+                 "settle": {"duration": 0.1, "damping": "adaptive"},)";
+  text.time = R"({"end": 0.1})";
+  const Simulation simulation = settle_and_run(text);
+  CHECK(simulation.ledger().kinetic < 1e-4);
+  CHECK(simulation.summary().largest_residual_share < 1e-6);
 }
 
 TEST_CASE("a divided body that nothing loads rests on the faces of its cut", "[contact][strips]") {

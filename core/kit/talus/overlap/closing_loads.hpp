@@ -32,7 +32,7 @@ class ClosingLoads {
   }
 
   /// A load that is on a body already.
-  void add(Point at, Point load) { all_.add(at, load); }
+  void add(Point at, Point load, double couple = 0) { all_.add(at, load, couple); }
   /// What presses on a line within a body, from one side; from the other its neighbour does.
   void add_within(std::uint32_t body, Point at, Point load) { within_[body].add(at, load); }
   /// Of these the side with the largest load takes what is left over on its body. A cell of a body and the

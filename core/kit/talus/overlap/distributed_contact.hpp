@@ -83,7 +83,7 @@ class DistributedContact {
 
     const LoadSink sink{loads.corner};
     sink.clear(batch, pair);
-    normal_.start(finder_.overlaps());
+    normal_.start(law, batch.interfaces, finder_.overlaps(), pair.a == pair.b);
     for (std::uint32_t c = 0; c < finder_.clusters(); ++c) {
       normal_.press(law, batch.interfaces, sink, finder_, c, pair, report);
       const std::uint32_t first_group = finder_.first_group(c), end = finder_.first_group(c + 1);

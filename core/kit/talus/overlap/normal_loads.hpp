@@ -3,6 +3,7 @@
 #include <talus/overlap/cells.hpp>
 #include <talus/overlap/closing_loads.hpp>
 #include <talus/overlap/pressure.hpp>
+#include <talus/overlap/strip_lines.hpp>
 
 #include <algorithm>
 #include <span>
@@ -21,12 +22,15 @@ class NormalLoads {
   /// Whether a body of the pair has many elements.
   bool among_strips() const { return among_strips_; }
 
-  void start(std::span<const Overlap> overlaps) {
+  /// `one_body`: both bodies of the pair are the same.
+  void start(const Law& law, const Interfaces& interfaces, std::span<const Overlap> overlaps, bool one_body) {
     on_b.assign(overlaps.size(), {0, 0});
     among_strips_ = overlaps[0].piece[0].is_strip() || overlaps[0].piece[1].is_strip();
     closing_.clear();
+    lines_.start(one_body);
     beside_ = {};
     total_load_ = largest_side_ = 0;
+    pressure_jumps_ = among_strips_ && interfaces.surface_count > 1 && differs(law, interfaces, overlaps);
   }
 
   /// Loads both bodies, each as master as far as its role says.
@@ -44,7 +48,10 @@ class NormalLoads {
   /// that only all strips together are in balance. Returns what jumps of the pressure put on body b beside
   /// the loads of cells; nothing where that is rounding.
   Balance finish(const LoadSink& sink) {
-    if (among_strips_) closing_.close(sink);
+    if (among_strips_) {
+      lines_.close(sink, closing_);
+      closing_.close(sink);
+    }
     const double rounding = 1e-9 * total_load_;
     const bool some = length(beside_.force) > rounding || std::abs(beside_.moment) > rounding * largest_side_;
     return some ? beside_ : Balance{};
@@ -95,9 +102,11 @@ class NormalLoads {
         }
         for (InnerSegment& inner : inner_segments_) {
           find_slave_loads(law, parameters, share, inner.segment);
+          const bool between_strips = pressure_jumps_ && overlap.piece[inner.body].is_strip();
+          if (between_strips) lines_.add(inner, overlap.piece[inner.body]);
           for (int end = 0; end < 2; ++end) {
             const Point at = inner.segment.at[end], force = inner.segment.load[end] * inner.inward;
-            closing_.add_within(inner.body, at, force);
+            if (!between_strips) closing_.add_within(inner.body, at, force);
             // Cells count what their master bears: what it bears elsewhere presses on the other body, too.
             if (inner.body == master_body) beside_.add(at, (master_body == 1 ? 1.0 : -1.0) * force);
           }
@@ -116,6 +125,29 @@ class NormalLoads {
       });
     }
     if (!among_strips_ && (members > 1 || !uniform)) closing_.close(sink);
+  }
+
+  /// Whether the pressure goes by something else in some overlaps than in others.
+  static bool differs(const Law& law, const Interfaces& interfaces, std::span<const Overlap> overlaps) {
+    constexpr std::uint32_t none = -1;
+    std::uint32_t first = none;
+    double stiffness = 0;
+    const auto is_other = [&](std::uint32_t row) {
+      if (row == first) return false;
+      const double own = law.interface(interfaces.value + row * interfaces.parameter_count).normal_stiffness;
+      if (first == none) first = row, stiffness = own;
+      return row != first && (HasOwnPressure<Law> || own != stiffness);
+    };
+    for (const Overlap& overlap : overlaps) {
+      const Piece &a = overlap.piece[0], &b = overlap.piece[1];
+      for (std::uint32_t i = 0; i < a.size(); ++i) {
+        for (std::uint32_t j = 0; j < b.size() && a.real(i); ++j) {
+          if (b.real(j) && is_other(interfaces.row[a.surface(i) * interfaces.surface_count + b.surface(j)]))
+            return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// Returns the depth of the deepest point, m.
@@ -161,9 +193,10 @@ class NormalLoads {
   CellDivider divider_;
   std::vector<InnerSegment> inner_segments_;  ///< of the cell at hand
   ClosingLoads closing_;
+  StripLines lines_;  ///< where the pressure jumps
   Balance beside_;
   double total_load_ = 0, largest_side_ = 0;  ///< N/m and m, to tell beside_ from rounding
-  bool among_strips_ = false;
+  bool among_strips_ = false, pressure_jumps_ = false;
 };
 
 }  // namespace talus::overlap
