@@ -51,8 +51,8 @@ class Base {
   void cut_out(overlap::Clipper& clipper, Polygon& polygon, std::uint32_t side) const {
     if (piece_.is_strip()) return;
     const Point start = piece_.at(side) - centroid_, end = piece_.at(piece_.next(side)) - centroid_;
-    clipper.clip(polygon, overlap::division_line, [&](Point p) { return -cross(start, p - centroid_); });
-    clipper.clip(polygon, overlap::division_line, [&](Point p) { return cross(end, p - centroid_); });
+    clipper.clip(polygon, {overlap::between_sides, 0}, [&](Point p) { return -cross(start, p - centroid_); });
+    clipper.clip(polygon, {overlap::between_sides, 0}, [&](Point p) { return cross(end, p - centroid_); });
   }
 
   /// A force at a point within the sector of a side. On a piece at the ends of the side and the corner

@@ -76,7 +76,7 @@ Found check(const std::vector<HeldBody>& bodies) {
       found.area += area;
       for (const Piece* master : {&a, &b}) {
         double sum = 0;
-        divider.divide(*master, polygon, [&](std::uint32_t side, const overlap::Polygon& cell) {
+        divider.divide(*master, 0, polygon, [&](std::uint32_t side, const overlap::Polygon& cell) {
           ++found.cells;
           const auto region = area_centroid(cell);
           sum += region.area;

@@ -95,9 +95,10 @@ class OverlapFinder {
 /// other two sides compete by distance too, or a thin master would count its overlap twice.
 class CellDivider {
  public:
-  /// Calls visit(side, cell) for each master side that owns a part of the overlap.
+  /// Calls visit(side, cell) for each side of the master, `body` of the pair, that owns a part of the
+  /// overlap.
   template <class Visit>
-  void divide(const Piece& master, const Polygon& overlap, const Visit& visit) {
+  void divide(const Piece& master, std::uint32_t body, const Polygon& overlap, const Visit& visit) {
     if (master.is_strip()) {  // all of it lies behind side 0
       if (master.real(0)) visit(0u, overlap);
       return;
@@ -107,7 +108,7 @@ class CellDivider {
       cell_.assign(overlap);
       for (const std::uint32_t j : competitors_) {
         if (j == k || cell_.empty()) continue;
-        cut_towards(master, k, j);
+        cut_towards(master, body, k, j);
       }
       if (!cell_.empty()) visit(k, cell_);
     }
@@ -138,17 +139,18 @@ class CellDivider {
     competitors_.resize(kept);
   }
 
-  void cut_towards(const Piece& master, std::uint32_t k, std::uint32_t j) {
+  void cut_towards(const Piece& master, std::uint32_t body, std::uint32_t k, std::uint32_t j) {
+    const SideLabel label{between_sides + body, j};
     const bool before = master.next(k) == j, after = master.next(j) == k;
     if (before || after) {
       const Point vertex = master.at(before ? j : k);
       const Point along = (before ? 1.0 : -1.0) * (master.tangent(k) + master.tangent(j));
-      clipper_.clip(cell_, division_line, [&](Point p) { return dot(along, p - vertex); });
+      clipper_.clip(cell_, label, [&](Point p) { return dot(along, p - vertex); });
       return;
     }
     const Point apart = master.tangent(k) - master.tangent(j);
     if (dot(apart, apart) < 1e-24) return;  // one line: the sides between them divide it
-    clipper_.clip(cell_, division_line, [&](Point p) { return master.depth(k, p) - master.depth(j, p); });
+    clipper_.clip(cell_, label, [&](Point p) { return master.depth(k, p) - master.depth(j, p); });
   }
 
   std::vector<std::uint32_t> competitors_;

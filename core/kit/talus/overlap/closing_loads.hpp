@@ -4,12 +4,18 @@
 
 namespace talus::overlap {
 
-/// A stretch of a cell along a line within a body: a cut, the end of a strip, or where sides of the master
-/// divide the overlap.
+/// A stretch of a cell along a line within a body: a cut, the end of a strip, or one that divides the
+/// overlap.
 struct InnerSegment {
   std::uint32_t body;  ///< whose line it is
+  bool between_sides;  ///< it divides the overlap between sides of that body
   Segment segment;
   Point inward;  ///< into the cell
+
+  Point load(int end) const { return segment.load[end] * inward; }
+  void add_to(Balance& all) const {
+    for (int end = 0; end < 2; ++end) all.add(segment.at[end], load(end));
+  }
 };
 
 /// A side that bears loads, and where.
@@ -21,9 +27,9 @@ struct LoadedSide {
   bool as_master = false;  ///< it is that of the master of its cell
 };
 
-/// Where the stiffness changes within an overlap, or a deep one reaches past a cut, the pressure jumps along
-/// a line within a body and Eqs. 33–34 leave a remainder. The line moves with its body, so that one bears it,
-/// as −∂Π/∂q has it: given to the other, which may be fixed, the motion would know nothing of it.
+/// Where a deep overlap reaches past a cut, or the stiffness is another beyond it, the pressure jumps along a
+/// line within a body and Eqs. 33–34 leave a remainder. The line moves with its body, so that one bears it, as
+/// −∂Π/∂q has it: given to the other, which may be fixed, the motion would know nothing of it.
 class ClosingLoads {
  public:
   void clear() {

@@ -30,7 +30,7 @@ class NormalLoads {
     lines_.start(one_body);
     beside_ = {};
     total_load_ = largest_side_ = 0;
-    pressure_jumps_ = among_strips_ && interfaces.surface_count > 1 && differs(law, interfaces, overlaps);
+    pressure_jumps_ = interfaces.surface_count > 1 && jumps(law, interfaces, overlaps);
   }
 
   /// Loads both bodies, each as master as far as its role says.
@@ -58,96 +58,185 @@ class NormalLoads {
   }
 
  private:
-  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
-  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
+  /// One overlap with one of the bodies as master.
+  struct InRole {
+    const Law& law;
+    const Interfaces& interfaces;
+    const LoadSink& sink;
+    const Overlap& overlap;
+    std::uint32_t member;  ///< its place among the overlaps
+    std::uint32_t master_body;
+    double share;  ///< of the load, for this role
+    PairReport& report;
+
+    const Piece& master() const { return overlap.piece[master_body]; }
+    const Piece& slave() const { return overlap.piece[1 - master_body]; }
+    std::uint32_t row(std::uint32_t side, std::uint32_t slave_side) const {
+      return interfaces.row[master().surface(side) * interfaces.surface_count + slave().surface(slave_side)];
+    }
+    InterfaceParameters parameters(std::uint32_t interface_row) const {
+      return law.interface(interfaces.value + interface_row * interfaces.parameter_count);
+    }
+  };
+
   void press_in_role(const Law& law, const Interfaces& interfaces, const LoadSink& sink,
                      const OverlapGroups& overlaps, std::uint32_t cluster, std::uint32_t master_body,
                      double share, PairReport& report) {
     const std::size_t first_cell = cells.size();
     if (!among_strips_) closing_.clear();
-    bool uniform = !HasOwnPressure<Law>;
     std::uint32_t members = 0;
     for (const std::uint32_t member : overlaps.cluster_members(cluster)) {
-      const Overlap& overlap = overlaps.overlaps()[member];
+      const InRole role{law,    interfaces,  sink,  overlaps.overlaps()[member],
+                        member, master_body, share, report};
       ++members;
-      const Piece& master = overlap.piece[master_body];
-      const Piece& slave = overlap.piece[1 - master_body];
-      divider_.divide(master, overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
-        const AreaCentroid region = &cell == &overlap.polygon ? overlap.region : area_centroid(cell);
-        if (!(region.area > 0)) return;
-        const auto first_segment = static_cast<std::uint32_t>(segments.size());
-        const double deepest = find_segments(master, slave, side, 1 - master_body, cell);
-        InterfaceParameters parameters = interface_of(law, interfaces, overlap, master, slave, side,
-                                                      std::span(segments).subspan(first_segment));
-        const Point normal = master.normal(side);
-        double load = 0;
-        Point foot{0, 0};
-        if constexpr (HasOwnPressure<Law>) {
-          const CellPressure in_cell = integrate(law, parameters, master, side, cell);
-          load = share * in_cell.load;
-          report.stored += share * in_cell.energy;
-          foot = in_cell.centre + master.depth(side, in_cell.centre) * normal;
-        } else {
-          load = share * parameters.normal_stiffness * region.area;
-          const double depth = master.depth(side, region.centroid);
-          report.stored += load * depth;
-          foot = region.centroid + depth * normal;
-        }
-        on_b[member] = on_b[member] + (master_body == 0 ? load : -load) * normal;
-        sink.on_side(master, side, master.lever(side, foot), -load * normal);
-        closing_.add(foot, -load * normal);
-        for (std::size_t s = first_segment; s < segments.size(); ++s) {
-          find_slave_loads(law, parameters, share, segments[s]);
-          load_slave(sink, slave, segments[s]);
-        }
-        for (InnerSegment& inner : inner_segments_) {
-          find_slave_loads(law, parameters, share, inner.segment);
-          const bool between_strips = pressure_jumps_ && overlap.piece[inner.body].is_strip();
-          if (between_strips) lines_.add(inner, overlap.piece[inner.body]);
-          for (int end = 0; end < 2; ++end) {
-            const Point at = inner.segment.at[end], force = inner.segment.load[end] * inner.inward;
-            if (!between_strips) closing_.add_within(inner.body, at, force);
-            // Cells count what their master bears: what it bears elsewhere presses on the other body, too.
-            if (inner.body == master_body) beside_.add(at, (master_body == 1 ? 1.0 : -1.0) * force);
-          }
-        }
-        total_load_ += load;
-        largest_side_ = std::max(largest_side_, master.length(side));
-        closing_.may_bear(master_body, {master, side, foot, load, true});
-        closing_.may_bear(1 - master_body, {slave, bounding_side(overlap, slave), foot, load});
-        // What a dashpot is measured by: the mean slope of the pressure.
-        if constexpr (HasOwnPressure<Law>) parameters.normal_stiffness = load / (share * region.area);
-        if (cells.size() > first_cell) {
-          uniform = uniform && cells[first_cell].interface.normal_stiffness == parameters.normal_stiffness;
-        }
-        cells.push_back({&overlap, master_body, side, normal, foot, load, deepest, parameters, first_segment,
-                         static_cast<std::uint32_t>(segments.size())});
-      });
+      divider_.divide(role.master(), master_body, role.overlap.polygon,
+                      [&](std::uint32_t side, const Polygon& cell) {
+                        if (pressure_jumps_ && jumps_under(role, side))
+                          press_parts(role, side, cell);
+                        else
+                          press_cell(role, side, cell, no_side);
+                      });
     }
+    const auto differs = [&](const Cell& cell) {
+      return cell.interface.normal_stiffness != cells[first_cell].interface.normal_stiffness;
+    };
+    const bool uniform =
+        !HasOwnPressure<Law> &&
+        std::none_of(cells.begin() + static_cast<std::ptrdiff_t>(first_cell), cells.end(), differs);
     if (!among_strips_ && (members > 1 || !uniform)) closing_.close(sink);
   }
 
-  /// Whether the pressure goes by something else in some overlaps than in others.
-  static bool differs(const Law& law, const Interfaces& interfaces, std::span<const Overlap> overlaps) {
-    constexpr std::uint32_t none = -1;
-    std::uint32_t first = none;
-    double stiffness = 0;
-    const auto is_other = [&](std::uint32_t row) {
-      if (row == first) return false;
-      const double own = law.interface(interfaces.value + row * interfaces.parameter_count).normal_stiffness;
-      if (first == none) first = row, stiffness = own;
-      return row != first && (HasOwnPressure<Law> || own != stiffness);
-    };
-    for (const Overlap& overlap : overlaps) {
-      const Piece &a = overlap.piece[0], &b = overlap.piece[1];
-      for (std::uint32_t i = 0; i < a.size(); ++i) {
-        for (std::uint32_t j = 0; j < b.size() && a.real(i); ++j) {
-          if (b.real(j) && is_other(interfaces.row[a.surface(i) * interfaces.surface_count + b.surface(j)]))
-            return true;
-        }
-      }
+  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
+  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
+  /// Part by part, as it is nearest to the sides of the slave: each has the pressure of its two sides.
+  void press_parts(const InRole& role, std::uint32_t side, const Polygon& cell) {
+    slave_divider_.divide(
+        role.slave(), 1 - role.master_body, cell,
+        [&](std::uint32_t slave_side, const Polygon& part) { press_cell(role, side, part, slave_side); });
+  }
+
+  void press_cell(const InRole& role, std::uint32_t side, const Polygon& cell, std::uint32_t slave_side) {
+    const Piece &master = role.master(), &slave = role.slave();
+    const AreaCentroid region = &cell == &role.overlap.polygon ? role.overlap.region : area_centroid(cell);
+    if (!(region.area > 0)) return;
+    const auto first_segment = static_cast<std::uint32_t>(segments.size());
+    const double deepest = find_segments(master, slave, side, 1 - role.master_body, cell);
+    InterfaceParameters parameters = interface_of(role.law, role.interfaces, role.overlap, master, slave,
+                                                  side, std::span(segments).subspan(first_segment));
+    if (slave_side != no_side) go_by(role.parameters(role.row(side, slave_side)), parameters);
+    const Point normal = master.normal(side);
+    double load = 0;
+    Point foot{0, 0};
+    if constexpr (HasOwnPressure<Law>) {
+      const CellPressure in_cell = integrate(role.law, parameters, master, side, cell);
+      load = role.share * in_cell.load;
+      role.report.stored += role.share * in_cell.energy;
+      foot = in_cell.centre + master.depth(side, in_cell.centre) * normal;
+    } else {
+      load = role.share * parameters.normal_stiffness * region.area;
+      const double depth = master.depth(side, region.centroid);
+      role.report.stored += load * depth;
+      foot = region.centroid + depth * normal;
     }
-    return false;
+    on_b[role.member] = on_b[role.member] + (role.master_body == 0 ? load : -load) * normal;
+    role.sink.on_side(master, side, master.lever(side, foot), -load * normal);
+    closing_.add(foot, -load * normal);
+    for (std::size_t s = first_segment; s < segments.size(); ++s) {
+      find_slave_loads(role.law, parameters, role.share, segments[s]);
+      load_slave(role.sink, slave, segments[s]);
+    }
+    for (InnerSegment& inner : inner_segments_) {
+      find_slave_loads(role.law, parameters, role.share, inner.segment);
+      bear(role, side, slave_side, inner);
+    }
+    total_load_ += load;
+    largest_side_ = std::max(largest_side_, master.length(side));
+    closing_.may_bear(role.master_body, {master, side, foot, load, true});
+    closing_.may_bear(1 - role.master_body, {slave, bounding_side(role.overlap, slave), foot, load});
+    // What a dashpot is measured by: the mean slope of the pressure.
+    if constexpr (HasOwnPressure<Law>) parameters.normal_stiffness = load / (role.share * region.area);
+    cells.push_back({&role.overlap, role.master_body, side, normal, foot, load, deepest, parameters,
+                     first_segment, static_cast<std::uint32_t>(segments.size())});
+  }
+
+  /// The pressure is that of one interface, also where sides of others are in the cell.
+  static void go_by(const InterfaceParameters& pressure, InterfaceParameters& mean) {
+    if constexpr (HasOwnPressure<Law>)
+      mean = pressure;
+    else
+      mean.normal_stiffness = pressure.normal_stiffness;
+  }
+
+  /// What presses on a line within a body. Cells count what their master bears: what it bears elsewhere
+  /// presses on the other body, too.
+  void bear(const InRole& role, std::uint32_t side, std::uint32_t slave_side, const InnerSegment& inner) {
+    const Piece& piece = role.overlap.piece[inner.body];
+    if (pressure_jumps_ && inner.between_sides) {
+      Balance load;
+      inner.add_to(load);
+      const Point middle = 0.5 * (inner.segment.at[0] + inner.segment.at[1]);
+      const LineSide own{&piece, inner.body == role.master_body ? side : slave_side};
+      bear_line(role.sink, own, {&piece, inner.segment.side}, middle, load);
+      closing_.add(middle, load.force, load.moment_about(middle));
+    } else if (pressure_jumps_ && piece.is_strip()) {
+      lines_.add(inner, piece);
+    } else {
+      for (int end = 0; end < 2; ++end)
+        closing_.add_within(inner.body, inner.segment.at[end], inner.load(end));
+    }
+    if (inner.body != role.master_body) return;
+    for (int end = 0; end < 2; ++end)
+      beside_.add(inner.segment.at[end], (role.master_body == 1 ? 1.0 : -1.0) * inner.load(end));
+  }
+
+  /// Whether the pressure goes the same way with depth on two interfaces.
+  static bool same_pressure(const Law& law, const Interfaces& interfaces, std::uint32_t one,
+                            std::uint32_t other) {
+    const auto stiffness = [&](std::uint32_t row) {
+      return law.interface(interfaces.value + row * interfaces.parameter_count).normal_stiffness;
+    };
+    return one == other || (!HasOwnPressure<Law> && stiffness(one) == stiffness(other));
+  }
+
+  /// Calls visit(class of surface) for each stretch of one class around a piece.
+  template <class Visit>
+  static void each_class(const Piece& piece, const Visit& visit) {
+    std::uint32_t before = internal_side;
+    for (std::uint32_t i = 0; i < piece.size(); ++i) {
+      if (!piece.real(i) || piece.surface(i) == before) continue;
+      before = piece.surface(i);
+      visit(before);
+    }
+  }
+
+  /// Whether the pressure behind a side of the master goes another way with depth under some sides of the
+  /// slave than under others.
+  static bool jumps_under(const InRole& role, std::uint32_t side) {
+    const std::uint32_t* rows =
+        role.interfaces.row + std::size_t{role.master().surface(side)} * role.interfaces.surface_count;
+    std::uint32_t first = no_side;
+    bool several = false;
+    each_class(role.slave(), [&](std::uint32_t slave_class) {
+      if (first == no_side) first = slave_class;
+      several = several || !same_pressure(role.law, role.interfaces, rows[first], rows[slave_class]);
+    });
+    return several;
+  }
+
+  /// Whether it does anywhere in the pair.
+  static bool jumps(const Law& law, const Interfaces& interfaces, std::span<const Overlap> overlaps) {
+    const std::uint32_t* first = nullptr;
+    bool several = false;
+    for (const Overlap& overlap : overlaps) {
+      each_class(overlap.piece[0], [&](std::uint32_t of_a) {
+        each_class(overlap.piece[1], [&](std::uint32_t of_b) {
+          const std::uint32_t* row = interfaces.row + std::size_t{of_a} * interfaces.surface_count + of_b;
+          if (first == nullptr) first = row;
+          several = several || !same_pressure(law, interfaces, *first, *row);
+        });
+      });
+    }
+    return several;
   }
 
   /// Returns the depth of the deepest point, m.
@@ -174,8 +263,9 @@ class NormalLoads {
         segments.push_back(segment);
       } else if (segment.length > 0) {
         const Point along = (1 / segment.length) * (end - start);
+        const bool between = label.body >= between_sides;
         inner_segments_.push_back(
-            {label.body > 1 ? 1 - slave_body : label.body, segment, {-along.y, along.x}});
+            {between ? label.body - between_sides : label.body, between, segment, {-along.y, along.x}});
       }
     }
     return deepest;
@@ -190,7 +280,9 @@ class NormalLoads {
     }
   }
 
-  CellDivider divider_;
+  static constexpr std::uint32_t no_side = -1;
+
+  CellDivider divider_, slave_divider_;
   std::vector<InnerSegment> inner_segments_;  ///< of the cell at hand
   ClosingLoads closing_;
   StripLines lines_;  ///< where the pressure jumps

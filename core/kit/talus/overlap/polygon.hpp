@@ -31,13 +31,15 @@ inline double length(Point p) {
   return std::sqrt(dot(p, p));
 }
 
-/// Where a side of a clipped polygon comes from: side `index` of body a (0) or b (1), or a division line.
+/// Where a side of a clipped polygon comes from: side `index` of body a (0) or b (1), or a line that divides
+/// an overlap.
 struct SideLabel {
   std::uint32_t body;
   std::uint32_t index;
 };
 
-inline constexpr SideLabel division_line{2, 0};
+/// Added to the body in the label of a line between two of its sides; the index is that of the other side.
+inline constexpr std::uint32_t between_sides = 2;
 
 /// A corner of a clipped polygon; `side` tells where the side that starts here comes from.
 struct Corner {
