@@ -28,8 +28,8 @@ struct LoadedSide {
 };
 
 /// Where a deep overlap reaches past a cut, or the stiffness is another beyond it, the pressure jumps along a
-/// line within a body and Eqs. 33–34 leave a remainder. The line moves with its body, so that one bears it, as
-/// −∂Π/∂q has it: given to the other, which may be fixed, the motion would know nothing of it.
+/// line within a body and Eqs. 33–34 leave a remainder. The line moves with its body, so that one bears it,
+/// as −∂Π/∂q has it: given to the other, which may be fixed, the motion would know nothing of it.
 class ClosingLoads {
  public:
   void clear() {
