@@ -3,6 +3,7 @@
 #include <talus/overlap/cells.hpp>
 #include <talus/overlap/closing_loads.hpp>
 #include <talus/overlap/pressure.hpp>
+#include <talus/overlap/pressure_jumps.hpp>
 #include <talus/overlap/strip_lines.hpp>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ class NormalLoads {
     lines_.start(one_body);
     beside_ = {};
     total_load_ = largest_side_ = 0;
-    pressure_jumps_ = interfaces.surface_count > 1 && jumps(law, interfaces, overlaps);
+    pressure_jumps_ = jumps_anywhere(law, interfaces, overlaps);
   }
 
   /// Loads both bodies, each as master as far as its role says.
@@ -89,13 +90,13 @@ class NormalLoads {
       const InRole role{law,    interfaces,  sink,  overlaps.overlaps()[member],
                         member, master_body, share, report};
       ++members;
-      divider_.divide(role.master(), master_body, role.overlap.polygon,
-                      [&](std::uint32_t side, const Polygon& cell) {
-                        if (pressure_jumps_ && jumps_under(role, side))
-                          press_parts(role, side, cell);
-                        else
-                          press_cell(role, side, cell, no_side);
-                      });
+      divider_.divide(
+          role.master(), master_body, role.overlap.polygon, [&](std::uint32_t side, const Polygon& cell) {
+            if (pressure_jumps_ && jumps_under(law, interfaces, role.master(), side, role.slave()))
+              press_parts(role, side, cell);
+            else
+              press_cell(role, side, cell, no_side);
+          });
     }
     const auto differs = [&](const Cell& cell) {
       return cell.interface.normal_stiffness != cells[first_cell].interface.normal_stiffness;
@@ -106,8 +107,6 @@ class NormalLoads {
     if (!among_strips_ && (members > 1 || !uniform)) closing_.close(sink);
   }
 
-  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
-  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
   /// Part by part, as it is nearest to the sides of the slave: each has the pressure of its two sides.
   void press_parts(const InRole& role, std::uint32_t side, const Polygon& cell) {
     slave_divider_.divide(
@@ -115,6 +114,9 @@ class NormalLoads {
         [&](std::uint32_t slave_side, const Polygon& part) { press_cell(role, side, part, slave_side); });
   }
 
+  /// Eqs. 28–36: the load on a master side is α_N times the area of its cell, through the centroid; on the
+  /// slave the trapezoid rule on the sub-segments. Energy is Π = ∫ α_N g dA.
+  /// `slave_side`: that by which the pressure goes, where it jumps under the master's.
   void press_cell(const InRole& role, std::uint32_t side, const Polygon& cell, std::uint32_t slave_side) {
     const Piece &master = role.master(), &slave = role.slave();
     const AreaCentroid region = &cell == &role.overlap.polygon ? role.overlap.region : area_centroid(cell);
@@ -187,56 +189,6 @@ class NormalLoads {
     if (inner.body != role.master_body) return;
     for (int end = 0; end < 2; ++end)
       beside_.add(inner.segment.at[end], (role.master_body == 1 ? 1.0 : -1.0) * inner.load(end));
-  }
-
-  /// Whether the pressure goes the same way with depth on two interfaces.
-  static bool same_pressure(const Law& law, const Interfaces& interfaces, std::uint32_t one,
-                            std::uint32_t other) {
-    const auto stiffness = [&](std::uint32_t row) {
-      return law.interface(interfaces.value + row * interfaces.parameter_count).normal_stiffness;
-    };
-    return one == other || (!HasOwnPressure<Law> && stiffness(one) == stiffness(other));
-  }
-
-  /// Calls visit(class of surface) for each stretch of one class around a piece.
-  template <class Visit>
-  static void each_class(const Piece& piece, const Visit& visit) {
-    std::uint32_t before = internal_side;
-    for (std::uint32_t i = 0; i < piece.size(); ++i) {
-      if (!piece.real(i) || piece.surface(i) == before) continue;
-      before = piece.surface(i);
-      visit(before);
-    }
-  }
-
-  /// Whether the pressure behind a side of the master goes another way with depth under some sides of the
-  /// slave than under others.
-  static bool jumps_under(const InRole& role, std::uint32_t side) {
-    const std::uint32_t* rows =
-        role.interfaces.row + std::size_t{role.master().surface(side)} * role.interfaces.surface_count;
-    std::uint32_t first = no_side;
-    bool several = false;
-    each_class(role.slave(), [&](std::uint32_t slave_class) {
-      if (first == no_side) first = slave_class;
-      several = several || !same_pressure(role.law, role.interfaces, rows[first], rows[slave_class]);
-    });
-    return several;
-  }
-
-  /// Whether it does anywhere in the pair.
-  static bool jumps(const Law& law, const Interfaces& interfaces, std::span<const Overlap> overlaps) {
-    const std::uint32_t* first = nullptr;
-    bool several = false;
-    for (const Overlap& overlap : overlaps) {
-      each_class(overlap.piece[0], [&](std::uint32_t of_a) {
-        each_class(overlap.piece[1], [&](std::uint32_t of_b) {
-          const std::uint32_t* row = interfaces.row + std::size_t{of_a} * interfaces.surface_count + of_b;
-          if (first == nullptr) first = row;
-          several = several || !same_pressure(law, interfaces, *first, *row);
-        });
-      });
-    }
-    return several;
   }
 
   /// Returns the depth of the deepest point, m.
