@@ -263,8 +263,8 @@ struct Scene {
   }
 };
 
-/// Whether an interface may be bonded. Bonds form where bodies are drawn, so that no other geometry can be
-/// given to such a scene.
+/// Whether an interface may be bonded, from the start or in a stage. Bonds form where bodies are drawn, so
+/// that no other geometry can be given to such a scene.
 bool may_bond(const Scene& scene);
 
 /// What a stage may change, as it is at the start.

@@ -189,13 +189,17 @@ void read_stages(Reading& reading, Section& root, const Json& scene, const ReadA
 bool may_bond(const Scene& scene) {
   if (scene.contact.component == nullptr) return false;
   const Component& law = *scene.contact.component->component;
-  return std::ranges::any_of(scene.interface_values, [&](const std::vector<double>& values) {
+  const auto bonds = [&](const std::vector<double>& values) {
     for (std::uint32_t i = 0; i < law.interface_parameter_count; ++i) {
       const std::string_view key = law.interface_parameters[i].key;
       if (values[i] > 0 && (key.ends_with("cohesion") || key.ends_with("tensile_strength"))) return true;
     }
     return false;
-  });
+  };
+  return std::ranges::any_of(scene.interface_values, bonds) ||
+         std::ranges::any_of(scene.stages, [&](const Stage& stage) {
+           return std::ranges::any_of(stage.settings.interface_values, bonds);
+         });
 }
 
 StageSettings settings_of(const Scene& scene) {

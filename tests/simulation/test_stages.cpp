@@ -344,3 +344,13 @@ TEST_CASE("a stage that changes nothing does no work on bodies that meet as it b
     CHECK(simulation.ledger().external_work == 0);
   }
 }
+
+TEST_CASE("bonds that get their strength in a stage are known from the start", "[simulation][stages]") {
+  // Contacts are born bonded: what such a bond may span must not be sifted out, nor other geometry be given.
+  WorkingScene text = resting_block();
+  text.law = "vertex_edge";
+  CHECK_FALSE(may_bond(text.read()));
+  text.rest += R"("stages": [{"name": "warm", "from": 0.02, "set": {"/interfaces/0/friction_angle": 20}},
+                             {"name": "grout", "from": 0.05, "set": {"/interfaces/0/cohesion": 2e6}}],)";
+  CHECK(may_bond(text.read()));
+}
