@@ -4,7 +4,6 @@
 
 #include <talus/overlap/pressure.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
